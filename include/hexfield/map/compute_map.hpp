@@ -1,0 +1,55 @@
+#pragma once
+
+#include <mpi.h>
+
+#include "hexfield/base/control.hpp"
+#include "hexfield/field/frame_field.hpp"
+#include "hexfield/map/corner_map.hpp"
+#include "hexfield/mesh/features.hpp"
+
+namespace hexfield {
+
+/// Parameters of stage 4 (spec-lmff section 8). The builder of the stage adds what it needs.
+struct SeamlessOptions {
+  double target_hexes = 10000;
+  double max_misalignment_degrees = 1;  ///< report constraints that the field misses by more
+};
+
+struct SeamlessResult {
+  SeamlessMap map;   ///< on rank 0; scaled such that its volume is about target_hexes
+  MapReport report;  ///< same on all ranks
+  int newton_steps = 0;
+  int linear_iterations = 0;
+};
+
+/// Stage 4: locally injective seamless map that is the identity transition off a cut, matches the field's
+/// matchings across it, and maps features and singular arcs onto coordinate planes and lines.
+/// Inputs are read on rank 0 (no tombstones); rank 0 holds the whole map, the solves are distributed.
+/// An invalid outcome is not an exception: it is reported. Collective.
+SeamlessResult compute_seamless_map(MPI_Comm comm, const TetMesh& mesh, const Features& features,
+                                    const FrameField& field, const EdgeCodes& codes, const SeamlessOptions& options,
+                                    const Control& control);
+
+/// Parameters of the rounding quantizer and stage 6 (spec-lmff section 9, spec-quantization section 6).
+struct IgmOptions {
+  double target_hexes = 10000;
+  double edge_length = 0;  ///< wanted hex edge length in input units; overrides target_hexes when > 0
+};
+
+struct IgmResult {
+  IntegerGridMap map;  ///< on rank 0
+  MapReport report;    ///< same on all ranks
+  bool quantization_valid = false;
+  std::string reason;  ///< one sentence when something is not valid
+  std::vector<Vec3> where;
+  int newton_steps = 0;
+  int linear_iterations = 0;
+};
+
+/// Stages 5 (greedy rounding) and 6: integer-grid map from a valid seamless map; exact after sanitising:
+/// transitions, features and singular arcs are bitwise integer. Collective, values on rank 0.
+IgmResult compute_integer_grid_map(MPI_Comm comm, const TetMesh& mesh, const Features& features,
+                                   const EdgeCodes& codes, const SeamlessMap& seamless, const IgmOptions& options,
+                                   const Control& control);
+
+}  // namespace hexfield

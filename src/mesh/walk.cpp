@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <unordered_set>
+
+#include "hexfield/mesh/tet_mesh.hpp"
+
+namespace hexfield {
+namespace {
+
+// Local vertices (c, d) of t besides a and b such that (a, b, c, d) is positively oriented.
+std::array<int, 2> wing_vertices(const TetMesh& mesh, TetId t, VertexId a, VertexId b) {
+  const int i = mesh.local_index(t, a);
+  const int j = mesh.local_index(t, b);
+  std::array<int, 4> order{i, j, -1, -1};
+  std::size_t n = 2;
+  for (int k = 0; k < 4; ++k)
+    if (k != i && k != j) order[n++] = k;
+  int inversions = 0;
+  for (std::size_t x = 0; x < 4; ++x)
+    for (std::size_t y = x + 1; y < 4; ++y) inversions += order[x] > order[y];
+  if (inversions % 2 != 0) std::swap(order[2], order[3]);
+  return {order[2], order[3]};
+}
+
+}  // namespace
+
+EdgeRing edge_ring(const TetMesh& mesh, TetId seed, VertexId a, VertexId b) {
+  // Counter-clockwise one leaves through the face opposite to c, clockwise through the one opposite to d.
+  auto leave = [&](TetId t, bool ccw) { return HalfFaceId(t, wing_vertices(mesh, t, a, b)[ccw ? 0 : 1]); };
+  TetId start = seed;
+  for (;;) {
+    const HalfFaceId back = mesh.opposite_half_face(leave(start, false));
+    if (!back.valid() || back.tet() == seed) {
+      if (back.valid()) start = seed;
+      break;
+    }
+    start = back.tet();
+  }
+  EdgeRing ring;
+  const HalfFaceId first = leave(start, false);
+  ring.closed = !mesh.is_boundary(first);
+  if (!ring.closed) ring.first_boundary = first;
+  for (TetId t = start;;) {
+    const HalfFaceId out = leave(t, true);
+    ring.tets.push_back(t);
+    ring.crossings.push_back(out);
+    const HalfFaceId in = mesh.opposite_half_face(out);
+    if (!in.valid() || in.tet() == start) return ring;
+    t = in.tet();
+  }
+}
+
+std::vector<TetId> vertex_star(const TetMesh& mesh, VertexId v) {
+  std::vector<TetId> star;
+  const TetId seed = mesh.vertex_tet[v.index()];
+  if (!seed.valid()) return star;
+  std::unordered_set<TetId> seen{seed};
+  star.push_back(seed);
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const TetId t = star[i];
+    for (int f = 0; f < 4; ++f) {
+      if (mesh.vertices(t)[static_cast<std::size_t>(f)] == v) continue;
+      const HalfFaceId o = mesh.opposite_half_face(HalfFaceId(t, f));
+      if (o.valid() && seen.insert(o.tet()).second) star.push_back(o.tet());
+    }
+  }
+  std::sort(star.begin(), star.end());
+  return star;
+}
+
+TetId find_tet_with_edge(const TetMesh& mesh, VertexId a, VertexId b) {
+  for (TetId t : vertex_star(mesh, a))
+    if (mesh.has_vertex(t, b)) return t;
+  return TetId();
+}
+
+HalfFaceId find_half_face(const TetMesh& mesh, const FaceKey& face) {
+  for (TetId t : vertex_star(mesh, face[0]))
+    for (int i = 0; i < 4; ++i)
+      if (mesh.key(HalfFaceId(t, i)) == face) return HalfFaceId(t, i);
+  return HalfFaceId();
+}
+
+}  // namespace hexfield
