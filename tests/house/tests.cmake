@@ -1,0 +1,7 @@
+# Tests of the house itself: order of the modules, sizes, format, README, installation.
+set(HEXFIELD_PYTHON /usr/bin/python3 CACHE FILEPATH "Python with numpy, scipy, h5py, meshio and matplotlib")
+set(house ${CMAKE_CURRENT_LIST_DIR})
+foreach(check module_order size_limits no_printing formatting data_of_own)
+  add_test(NAME house_${check} COMMAND ${HEXFIELD_PYTHON} ${house}/${check}.py)
+  set_tests_properties(house_${check} PROPERTIES LABELS house TIMEOUT 120 SKIP_RETURN_CODE 77)
+endforeach()
