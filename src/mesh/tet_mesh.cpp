@@ -149,7 +149,8 @@ std::vector<Violation> check(const TetMesh& mesh) {
     const VertexId v(static_cast<std::int64_t>(i));
     const TetId t = mesh.vertex_tet[i];
     if (t.valid() && (!mesh.alive(t) || !mesh.has_vertex(t, v)))
-      found.push_back({fmt::format("Vertex {} names a tet that does not have it.", v.value), {v.value}, {mesh.point(v)}});
+      found.push_back(
+          {fmt::format("Vertex {} names a tet that does not have it.", v.value), {v.value}, {mesh.point(v)}});
   }
   return found;
 }

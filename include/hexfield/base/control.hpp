@@ -16,7 +16,8 @@ struct Control {
   std::function<bool()> stop_requested;
   /// Offers the iterate of a long solve, complete on rank 0 and in global order (empty elsewhere), for a
   /// checkpoint; the receiver decides whether it is time to write.
-  std::function<void(const std::string& name, const std::function<std::vector<double>()>& gather_on_root)> offer_iterate;
+  std::function<void(const std::string& name, const std::function<std::vector<double>()>& gather_on_root)>
+      offer_iterate;
   /// The newest iterate of that name from an interrupted run, on rank 0 (empty vector elsewhere); nullopt if none.
   std::function<std::optional<std::vector<double>>(const std::string& name)> restore_iterate;
 };

@@ -48,8 +48,7 @@ struct IgmResult {
 
 /// Stages 5 (greedy rounding) and 6: integer-grid map from a valid seamless map; exact after sanitising:
 /// transitions, features and singular arcs are bitwise integer. Collective, values on rank 0.
-IgmResult compute_integer_grid_map(MPI_Comm comm, const TetMesh& mesh, const Features& features,
-                                   const EdgeCodes& codes, const SeamlessMap& seamless, const IgmOptions& options,
-                                   const Control& control);
+IgmResult compute_integer_grid_map(MPI_Comm comm, const TetMesh& mesh, const Features& features, const EdgeCodes& codes,
+                                   const SeamlessMap& seamless, const IgmOptions& options, const Control& control);
 
 }  // namespace hexfield

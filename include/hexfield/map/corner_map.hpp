@@ -14,8 +14,8 @@ namespace hexfield {
 /// Across half-face (t, i) to tet j: f_j = R f_t + translation with R = rotation(h), the inverse of the
 /// matching M_tj. The opposite half-face carries the inverse. Identity and zero on the boundary.
 struct CornerMap {
-  std::vector<std::array<Vec3, 4>> uvw;                          ///< per tet and local vertex
-  std::vector<std::array<octahedral::Rotation, 4>> rotations;    ///< rotation part of the transitions
+  std::vector<std::array<Vec3, 4>> uvw;                        ///< per tet and local vertex
+  std::vector<std::array<octahedral::Rotation, 4>> rotations;  ///< rotation part of the transitions
 
   octahedral::Rotation rotation(HalfFaceId h) const {
     return rotations[h.tet().index()][static_cast<std::size_t>(h.local())];

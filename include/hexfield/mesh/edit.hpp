@@ -18,9 +18,9 @@ struct NewHalfFace {
 /// their slots (and attributes) can still be read.
 struct SplitRecord {
   VertexId new_vertex;
-  std::vector<VertexId> parents;                       ///< the new vertex lies in their span: 2, 3 or 4 vertices
-  std::vector<std::pair<TetId, TetId>> child_of;       ///< (new tet, old tet)
-  std::vector<NewHalfFace> half_faces;                 ///< all four half-faces of every new tet
+  std::vector<VertexId> parents;                  ///< the new vertex lies in their span: 2, 3 or 4 vertices
+  std::vector<std::pair<TetId, TetId>> child_of;  ///< (new tet, old tet)
+  std::vector<NewHalfFace> half_faces;            ///< all four half-faces of every new tet
 };
 
 /// An attribute of the mesh that follows its edits (frames, matchings, features, SH coefficients, ...).

@@ -13,7 +13,8 @@ namespace hexfield {
 /// Local vertices of face i (opposite to vertex i), counter-clockwise seen from outside a positive tet.
 inline constexpr std::array<std::array<int, 3>, 4> tet_face_vertices = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 /// Local vertices of the six edges.
-inline constexpr std::array<std::array<int, 2>, 6> tet_edge_vertices = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+inline constexpr std::array<std::array<int, 2>, 6> tet_edge_vertices = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 /// Sorted vertex pair: the key of an undirected edge.
 using EdgeKey = std::array<VertexId, 2>;
@@ -27,10 +28,10 @@ FaceKey face_key(VertexId a, VertexId b, VertexId c);
 /// Every tet is positively oriented: det(p1 - p0, p2 - p0, p3 - p0) > 0. Edits append tets and leave
 /// tombstones (a tet whose first vertex is invalid); compact() in mesh/edit.hpp removes them.
 struct TetMesh {
-  std::vector<Vec3> points;                             ///< coordinates of the input, one per vertex
-  std::vector<std::array<VertexId, 4>> tets;            ///< vertices per tet; all invalid in a tombstone
-  std::vector<std::array<HalfFaceId, 4>> opposite;      ///< other side of each face; invalid on the boundary
-  std::vector<TetId> vertex_tet;                        ///< one alive tet per vertex; invalid if it has none
+  std::vector<Vec3> points;                         ///< coordinates of the input, one per vertex
+  std::vector<std::array<VertexId, 4>> tets;        ///< vertices per tet; all invalid in a tombstone
+  std::vector<std::array<HalfFaceId, 4>> opposite;  ///< other side of each face; invalid on the boundary
+  std::vector<TetId> vertex_tet;                    ///< one alive tet per vertex; invalid if it has none
 
   std::size_t num_vertices() const { return points.size(); }
   /// Number of slots, tombstones included.
