@@ -4,7 +4,6 @@
 #include <petscsf.h>
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,11 +13,16 @@ namespace hexfield {
 
 /// One rank's share of a mesh that rank 0 holds: its owned tets (first) and one layer of ghost tets
 /// across their faces, with everything in local ids. With one rank: all tets, no ghosts.
+/// Owned tets ascend by global id, so do the ghosts, and so do the local vertices (those of local tets).
+/// Tets keep the order of their vertices, so local face i of a tet is the same everywhere.
+/// A face of a ghost whose other side is not local looks like a boundary face; owned tets have all neighbours.
 /// Empty shares are legal (more ranks than tets).
+/// Rank 0 sends the shares one after the other, so no other rank ever holds more than its share.
 class DistributedMesh {
  public:
   /// Partitions the dual graph of `root_mesh` (read on rank 0 only, no tombstones) with METIS and sends
-  /// every rank its share. Deterministic for a fixed number of ranks. Collective.
+  /// every rank its share. Deterministic for a fixed number of ranks. `comm` must outlive the object. Collective.
+  /// Throws Error(bug) on all ranks when the mesh has tombstones.
   DistributedMesh(MPI_Comm comm, const TetMesh& root_mesh);
   ~DistributedMesh();
   DistributedMesh(const DistributedMesh&) = delete;
@@ -34,6 +38,7 @@ class DistributedMesh {
   std::span<const std::int64_t> global_vertices() const { return global_vertices_; }
 
   /// Copies per-tet values from rank 0 (`width` doubles per global tet) to all local tets. Collective.
+  /// Throws Error(bug) on all ranks when a size is wrong on one.
   std::vector<double> scatter_tets(std::span<const double> on_root, int width) const;
   /// Collects owned values into global order on rank 0 (empty elsewhere). Collective.
   std::vector<double> gather_tets(std::span<const double> local, int width) const;
