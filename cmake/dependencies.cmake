@@ -1,4 +1,5 @@
-# Every third-party library, found once. Only Debian 12 packages; `jobs/install_packages.sh` names them.
+# Every third-party library, found once, for the build and for projects that use the installed package.
+# Only Debian 12 packages; `jobs/install_packages.sh` names them.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(MPI 3.1 REQUIRED COMPONENTS C)
@@ -6,17 +7,19 @@ find_package(TBB 2021 CONFIG REQUIRED)
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
 find_package(spdlog 1.10 CONFIG REQUIRED)
-find_package(CLI11 2 CONFIG REQUIRED)
 find_package(toml11 3.7 CONFIG REQUIRED)
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED)
 
 pkg_check_modules(PETSC REQUIRED PETSc>=3.18)
 find_library(PETSC_LIBRARY NAMES petsc_real petsc HINTS ${PETSC_LIBRARY_DIRS} REQUIRED)
-add_library(deps_petsc INTERFACE)
-add_library(deps::petsc ALIAS deps_petsc)
-target_include_directories(deps_petsc SYSTEM INTERFACE ${PETSC_INCLUDE_DIRS})
-target_link_libraries(deps_petsc INTERFACE ${PETSC_LIBRARY} MPI::MPI_C)
+if(NOT TARGET deps::petsc)
+  # Imported, so that the installed targets name it and the user's machine says where it is. Not its CFLAGS
+  # from pkg-config: they hold distribution build flags.
+  add_library(deps::petsc INTERFACE IMPORTED)
+  target_include_directories(deps::petsc INTERFACE ${PETSC_INCLUDE_DIRS})
+  target_link_libraries(deps::petsc INTERFACE ${PETSC_LIBRARY} MPI::MPI_C)
+endif()
 
 set(HDF5_PREFER_PARALLEL TRUE)
 find_package(HDF5 1.10 REQUIRED COMPONENTS C)
@@ -26,14 +29,8 @@ endif()
 
 find_path(METIS_INCLUDE_DIR metis.h REQUIRED)
 find_library(METIS_LIBRARY metis REQUIRED)
-add_library(deps_metis INTERFACE)
-add_library(deps::metis ALIAS deps_metis)
-target_include_directories(deps_metis SYSTEM INTERFACE ${METIS_INCLUDE_DIR})
-target_link_libraries(deps_metis INTERFACE ${METIS_LIBRARY})
-
-if(HEXFIELD_TESTS)
-  find_package(GTest 1.12 CONFIG REQUIRED)
-endif()
-if(HEXFIELD_BENCHMARKS)
-  find_package(benchmark 1.7 CONFIG REQUIRED)
+if(NOT TARGET deps::metis)
+  add_library(deps::metis INTERFACE IMPORTED)
+  target_include_directories(deps::metis INTERFACE ${METIS_INCLUDE_DIR})
+  target_link_libraries(deps::metis INTERFACE ${METIS_LIBRARY})
 endif()
