@@ -2,6 +2,9 @@
 
 #include <petscsys.h>
 
+#include "hexfield/base/launch.hpp"
+#include "hexfield/base/parallel.hpp"
+
 namespace hexfield {
 
 Session::Session(int& argc, char**& argv) {
@@ -14,6 +17,8 @@ Session::Session(int& argc, char**& argv) {
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_ARE_FATAL);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  use_one_blas_thread();
+  set_threads(threads_given_to_rank(MPI_COMM_WORLD));
 }
 
 Session::~Session() {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+namespace hexfield {
+
+/// Lets `write` fill a new file and gives it the name `file` only when it is complete and on the disk; an older
+/// file of that name is whole until then. `write` gets a path with the same file name, thus the same extension, in
+/// a hidden directory beside it. Not collective.
+/// Throws Error(bad_input) with the reason of the system when the disk does not take it; passes on what `write` throws.
+void write_whole_file(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path&)>& write);
+
+/// Flushes a file (or directory) to the disk. Throws Error(bad_input) when the disk does not take it.
+void flush_to_disk(const std::filesystem::path& file);
+
+/// Makes the directory, with its parents, and checks that files can be written into it.
+/// Throws Error(bad_input) with the reason of the system.
+void make_output_directory(const std::filesystem::path& directory);
+
+}  // namespace hexfield
