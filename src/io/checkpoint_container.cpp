@@ -12,7 +12,7 @@
 #include "hexfield/base/error.hpp"
 #include "hexfield/base/hash.hpp"
 #include "hexfield/io/checkpoint.hpp"
-#include "hexfield/io/output_file.hpp"
+#include "hexfield/io/whole_file.hpp"
 
 namespace hexfield {
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 
 #include "hexfield/base/error.hpp"
 #include "hexfield/io/checkpoint_values.hpp"
-#include "hexfield/io/output_file.hpp"
+#include "hexfield/io/whole_file.hpp"
 #include "support/meshes.hpp"
 #include "support/scratch.hpp"
 
@@ -198,7 +198,7 @@ TEST(IterateRing, KeepsTheNewestWholeIterate) {
   EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
 }
 
-TEST(OutputFile, OldContentStaysWhenWritingFails) {
+TEST(WholeFile, OldContentStaysWhenWritingFails) {
   const ScratchDirectory scratch;
   write_bytes(scratch / "a.txt", "old");
   EXPECT_THROW(write_whole_file(scratch / "a.txt",

@@ -1,4 +1,4 @@
-#include "hexfield/io/output_file.hpp"
+#include "hexfield/io/whole_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
