@@ -33,7 +33,8 @@ struct MapReport {
   std::vector<TetId> inverted;       ///< tets with det <= 0 or not finite
   std::vector<EdgeKey> wrong_edges;  ///< image angle differs from the expected one by > 0.1 quarter-turn
   double max_residual = 0;           ///< largest |f_j - (R f_t + t)| and misalignment, in parameter units
-  bool valid() const { return inverted.empty() && wrong_edges.empty(); }
+  static constexpr double residual_tolerance = 1e-6;
+  bool valid() const { return inverted.empty() && wrong_edges.empty() && max_residual <= residual_tolerance; }
 };
 
 }  // namespace hexfield
