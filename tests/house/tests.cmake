@@ -7,3 +7,9 @@ foreach(check module_order size_limits no_printing formatting data_of_own)
 endforeach()
 add_test(NAME house_consumer COMMAND ${house}/consumer_test.sh ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/consumer)
 set_tests_properties(house_consumer PROPERTIES LABELS house TIMEOUT 300 ENVIRONMENT "${HEXFIELD_TEST_ENVIRONMENT}")
+if(TARGET hexfield)
+  add_test(NAME house_readme
+    COMMAND ${HEXFIELD_PYTHON} ${house}/readme_commands.py ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/readme)
+  set_tests_properties(house_readme PROPERTIES LABELS house TIMEOUT 900 PROCESSORS 2
+    ENVIRONMENT "${HEXFIELD_TEST_ENVIRONMENT}")
+endif()
