@@ -42,7 +42,8 @@ struct NewtonOptions {
   double gradient_tolerance = 1e-6;   ///< stop when |g| <= tolerance * max(1, |g at the start|)
   double decrease_tolerance = 1e-12;  ///< stop when the predicted decrease is below this fraction of |E|
   int max_linear_iterations = 300;
-  double linear_tolerance = 1e-1;  ///< forcing term: min(linear_tolerance, sqrt(|g|)) relative residual
+  double linear_tolerance =
+      1e-1;  ///< forcing term: min(linear_tolerance, sqrt(|g| / |g at the start|)) relative residual
   Preconditioner preconditioner = Preconditioner::amg;
   int block_size = 1;
   /// Called after every accepted step with (iteration, energy, gradient norm); return false to stop.
@@ -65,6 +66,12 @@ struct NewtonResult {
 /// never leaves the domain. The same bytes for any number of threads. Collective.
 /// Throws Error(bug) when the start is outside the domain.
 NewtonResult minimise(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec y, const NewtonOptions& options);
+
+/// Minimiser of a quadratic sum of terms, to a relative gradient of about 1e-12 (conjugate gradients with this
+/// preconditioner, refined once); y is the start and the result. Where the sum has no unique minimiser, directions
+/// without energy keep their start. Collective.
+NewtonResult solve_linear(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec y,
+                          Preconditioner preconditioner = Preconditioner::amg, int block_size = 1);
 
 /// Value of the sum at y (may be infinite). Collective.
 double evaluate(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec y);

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <petscmat.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hexfield/solve/minimise.hpp"
+
+namespace hexfield::solve {
+
+/// Owns a PETSc object; D is its destroy function.
+template <class T, PetscErrorCode (*D)(T*)>
+class Handle {
+ public:
+  Handle() = default;
+  ~Handle() { D(&object_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  T get() const { return object_; }
+  T* out() {
+    D(&object_);
+    return &object_;
+  }
+
+ private:
+  T object_ = nullptr;
+};
+using VecHandle = Handle<Vec, VecDestroy>;
+using MatHandle = Handle<Mat, MatDestroy>;
+using ScatterHandle = Handle<VecScatter, VecScatterDestroy>;
+
+/// Evaluates sums of EnergyTerms on a distributed vector. Built once per set of terms: it finds the unknowns
+/// that this rank's elements read, the scatter that fetches them and, on the first derivatives(), the
+/// nonzero pattern of the Hessian. Element results go to buffers by index, so no result depends on threads.
+class Assembly {
+ public:
+  /// Collective; `y` gives the layout. Throws Error(bug) when an index is outside it.
+  Assembly(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec y);
+
+  double value(Vec y);
+  /// Energy; writes the gradient and the Hessian. Throws Error(bug) when a derivative is not finite.
+  double derivatives(Vec y, Vec gradient);
+  /// The Hessian of the last derivatives().
+  Mat hessian() const { return hessian_.get(); }
+  /// Largest step over all elements of all ranks (may be infinite).
+  double max_step(Vec y, Vec dy);
+  /// Block size that the Hessian should carry; before the first derivatives().
+  void set_block_size(int block_size) { block_size_ = block_size; }
+
+ private:
+  struct Term {
+    const EnergyTerm* energy;
+    std::vector<std::int32_t> local;       // positions in the gathered vector
+    std::vector<std::size_t> first;        // CSR over elements
+    std::vector<std::size_t> first_entry;  // where the element's n x n block starts in entries_
+  };
+  void collect_unknowns();
+  void create_hessian(Vec y);
+  void gather(Vec y, std::vector<double>& values);
+  double energy_of(const Term& term, const std::vector<double>& values) const;
+  double derivatives_of(const Term& term, std::span<double> gradient);
+  double sum(double local) const;
+
+  MPI_Comm comm_;
+  int block_size_ = 1;
+  PetscInt num_local_ = 0;
+  std::vector<Term> terms_;
+  std::vector<PetscInt> needed_;  // global indices in the gathered vector, ascending
+  std::vector<double> values_;
+  std::vector<double> steps_;
+  std::vector<double> entries_;    // all element Hessians
+  std::vector<double> gradients_;  // all element gradients
+  VecHandle gathered_;
+  ScatterHandle scatter_;
+  MatHandle hessian_;
+};
+
+}  // namespace hexfield::solve
