@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include "hexfield/io/hex_io.hpp"
+#include "hexfield/io/tet_io.hpp"
+#include "readers.hpp"
+#include "writers.hpp"
+
+namespace hexfield {
+namespace io {
+
+CellSoup read_soup(const std::filesystem::path& file) {
+  const std::string data = load_file(file);
+  Scanner in(file.string(), data);
+  const std::string_view text = data;
+  if (text.starts_with("# vtk DataFile")) return read_legacy_vtk(std::move(in));
+  const std::string first(Scanner(in).peek().substr(0, 40));
+  throw Error(
+      ExitCode::bad_input,
+      fmt::format("{}: begins with \"{}\", which is none of the formats known here (legacy VTK, Gmsh MSH 2.2 or "
+                  "4.1, Medit .mesh in ASCII).",
+                  file.string(), printable(first)));
+}
+
+void write_soup(const std::filesystem::path& file, const CellSoup& soup, const WriteOptions& options) {
+  const MeshFormat format = choose_format(file, options);
+  write_file(file, [&](BufferedWriter& out) {
+    switch (format) {
+      case MeshFormat::vtk:
+        write_legacy_vtk(out, soup, options.binary);
+        break;
+      default:
+        throw Error(ExitCode::usage, fmt::format("{}: only .vtk can be written.", file.string()));
+    }
+  });
+}
+
+}  // namespace io
+
+TetInput read_tet_mesh(const std::filesystem::path& file) { return io::assemble_tets(io::read_soup(file)); }
+
+HexMesh read_hex_mesh(const std::filesystem::path& file) { return io::assemble_hexes(io::read_soup(file)); }
+
+void write_tet_mesh(const std::filesystem::path& file, const TetMesh& mesh, const Features& features,
+                    const WriteOptions& options) {
+  io::write_soup(file, io::soup_of(mesh, features), options);
+}
+
+void write_hex_mesh(const std::filesystem::path& file, const HexMesh& mesh, const WriteOptions& options) {
+  io::write_soup(file, io::soup_of(mesh), options);
+}
+
+}  // namespace hexfield
