@@ -5,40 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "face_table.hpp"
+
 namespace hexfield {
 namespace {
 
-struct FaceRecord {
-  FaceKey key;
-  HalfFaceId half_face;
-  bool even;  // orientation of the half-face against the sorted key
-};
-
-bool even_permutation(const std::array<VertexId, 3>& f) {
-  const int inversions = (f[1] < f[0]) + (f[2] < f[0]) + (f[2] < f[1]);
-  return inversions % 2 == 0;
-}
-
-std::vector<FaceRecord> sorted_faces(const TetMesh& mesh) {
-  std::vector<FaceRecord> faces;
-  faces.reserve(4 * mesh.tets.size());
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    for (int i = 0; i < 4; ++i) {
-      const HalfFaceId h(TetId(static_cast<std::int64_t>(t)), i);
-      faces.push_back({mesh.key(h), h, even_permutation(mesh.face_vertices(h))});
-    }
-  std::sort(faces.begin(), faces.end(), [](const FaceRecord& a, const FaceRecord& b) {
-    return std::tie(a.key, a.half_face) < std::tie(b.key, b.half_face);
-  });
-  return faces;
-}
-
-[[noreturn]] void refuse_face(const TetMesh& mesh, const std::vector<FaceRecord>& faces, std::size_t i, std::size_t j) {
+[[noreturn]] void refuse_face(const TetMesh& mesh, const FaceKey& f, std::span<const FaceTable::Entry> sides) {
   std::vector<std::int64_t> ids;
-  for (std::size_t k = i; k < j; ++k) ids.push_back(faces[k].half_face.tet().value);
-  const FaceKey& f = faces[i].key;
+  for (const auto& side : sides) ids.push_back(side.half_face().tet().value);
   const Vec3 centre = (mesh.point(f[0]) + mesh.point(f[1]) + mesh.point(f[2])) / 3;
-  const bool doubled = j - i == 2;
+  const bool doubled = sides.size() == 2;
   throw Error(ExitCode::bad_input,
               fmt::format("The face of vertices {}, {}, {} at ({:.6g}, {:.6g}, {:.6g}) {} tets {}.", f[0].value,
                           f[1].value, f[2].value, centre.x(), centre.y(), centre.z(),
@@ -86,17 +62,16 @@ TetMesh build_tet_mesh(std::vector<Vec3> points, std::vector<std::array<VertexId
   mesh.tets = std::move(tets);
   mesh.opposite.assign(mesh.tets.size(), {});
   mesh.vertex_tet.assign(mesh.points.size(), TetId());
-  const auto faces = sorted_faces(mesh);
-  for (std::size_t i = 0, j = 0; i < faces.size(); i = j) {
-    for (j = i + 1; j < faces.size() && faces[j].key == faces[i].key; ++j) {
-    }
-    if (j - i > 2 || (j - i == 2 && faces[i].even == faces[i + 1].even)) refuse_face(mesh, faces, i, j);
-    if (j - i < 2) continue;
-    const HalfFaceId a = faces[i].half_face;
-    const HalfFaceId b = faces[i + 1].half_face;
-    mesh.opposite[a.tet().index()][static_cast<std::size_t>(a.local())] = b;
-    mesh.opposite[b.tet().index()][static_cast<std::size_t>(b.local())] = a;
-  }
+  FaceTable(mesh.points.size(), mesh.tets)
+      .for_each_face([&](const FaceKey& key, std::span<const FaceTable::Entry> sides) {
+        if (sides.size() > 2 || (sides.size() == 2 && sides[0].even() == sides[1].even()))
+          refuse_face(mesh, key, sides);
+        if (sides.size() < 2) return;
+        const HalfFaceId a = sides[0].half_face();
+        const HalfFaceId b = sides[1].half_face();
+        mesh.opposite[a.tet().index()][static_cast<std::size_t>(a.local())] = b;
+        mesh.opposite[b.tet().index()][static_cast<std::size_t>(b.local())] = a;
+      });
   for (std::size_t t = mesh.tets.size(); t-- > 0;)
     for (VertexId v : mesh.tets[t]) mesh.vertex_tet[v.index()] = TetId(static_cast<std::int64_t>(t));
   return mesh;
