@@ -1,0 +1,225 @@
+#include "cells.hpp"
+
+#include <fmt/core.h>
+
+#include <limits>
+
+#include "hexfield/base/parallel.hpp"
+
+namespace hexfield::hex {
+namespace {
+
+constexpr std::size_t grain = 512;
+
+// Two pieces of one hex; `rotation` leads from the chart of the first to that of the second.
+struct Link {
+  std::int32_t from;
+  std::int32_t to;
+  octahedral::Rotation rotation;
+};
+
+// Union-find whose roots are the lowest members and that knows the rotation from each member to its parent.
+class Pieces {
+ public:
+  explicit Pieces(std::size_t n) : parent_(n), rotation_(n, octahedral::identity) {
+    for (std::size_t i = 0; i < n; ++i) parent_[i] = static_cast<std::int32_t>(i);
+  }
+  std::int32_t find(std::int32_t i, octahedral::Rotation& to_root) {
+    to_root = octahedral::identity;
+    std::int32_t root = i;
+    while (parent_[static_cast<std::size_t>(root)] != root) {
+      to_root = octahedral::product(rotation_[static_cast<std::size_t>(root)], to_root);
+      root = parent_[static_cast<std::size_t>(root)];
+    }
+    octahedral::Rotation rest = to_root;
+    while (i != root) {
+      const auto k = static_cast<std::size_t>(i);
+      const std::int32_t next = parent_[k];
+      const octahedral::Rotation after = octahedral::product(rest, octahedral::inverse(rotation_[k]));
+      parent_[k] = root;
+      rotation_[k] = rest;
+      rest = after;
+      i = next;
+    }
+    return root;
+  }
+  // False when the two are joined already by another rotation.
+  bool join(const Link& link) {
+    octahedral::Rotation a = 0;
+    octahedral::Rotation b = 0;
+    const std::int32_t from = find(link.from, a);
+    const std::int32_t to = find(link.to, b);
+    // chart of `from` root -> link.from -> link.to -> chart of `to` root
+    const octahedral::Rotation across =
+        octahedral::product(b, octahedral::product(link.rotation, octahedral::inverse(a)));
+    if (from == to) return across == octahedral::identity;
+    if (to < from) {
+      parent_[static_cast<std::size_t>(from)] = to;
+      rotation_[static_cast<std::size_t>(from)] = across;
+    } else {
+      parent_[static_cast<std::size_t>(to)] = from;
+      rotation_[static_cast<std::size_t>(to)] = octahedral::inverse(across);
+    }
+    return true;
+  }
+
+ private:
+  std::vector<std::int32_t> parent_;
+  std::vector<octahedral::Rotation> rotation_;
+};
+
+[[noreturn]] void fail(const TetMesh& mesh, TetId t, const std::string& why) {
+  throw Error(ExitCode::bad_hex_mesh, fmt::format("Tet {}: {}", t.value, why), {t.value}, {centroid(mesh, t)});
+}
+
+std::vector<std::vector<Link>> find_links(const TetMesh& mesh, const FixedMap& map, const RowTable& pieces) {
+  const std::size_t n = mesh.num_tets();
+  std::vector<std::vector<Link>> links((n + grain - 1) / grain);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Link>& out = links[begin / grain];
+    for (std::size_t k = begin; k < end; ++k)
+      for (int i = 0; i < 4; ++i) {
+        const TetId t(k);
+        const HalfFaceId h(t, i);
+        const HalfFaceId o = mesh.opposite_half_face(h);
+        if (!o.valid() || o < h) continue;
+        const auto& v = tet_face_vertices[static_cast<std::size_t>(i)];
+        const LatticeTransition& transition = map.transition(h);
+        cubes_of_triangle(map, {map.corner(t, v[0]), map.corner(t, v[1]), map.corner(t, v[2])})
+            .for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t first, std::int32_t last) {
+              for (std::int32_t x = first; x < last; ++x) {
+                const Lattice3 cube{x, y, z};
+                out.push_back({static_cast<std::int32_t>(pieces.item(t, cube)),
+                               static_cast<std::int32_t>(pieces.item(o.tet(), transition.cube(cube))),
+                               transition.rotation});
+              }
+            });
+      }
+  });
+  return links;
+}
+
+void number_cells(const TetMesh& mesh, const FixedMap& map, Cells& cells) {
+  const auto n = static_cast<std::size_t>(cells.pieces.size);
+  Pieces pieces(n);
+  for (const auto& part : find_links(mesh, map, cells.pieces))
+    for (const Link& link : part) {
+      require(link.from >= 0 && link.to >= 0, "A cube met by a face of a tet is not met by the tet.");
+      if (!pieces.join(link))
+        fail(mesh, cells.tet(static_cast<std::size_t>(link.from)), "a cube of the integer-grid map turns into itself.");
+    }
+  cells.cell.resize(n);
+  cells.to_cell.resize(n);
+  for (std::size_t p = 0; p < n; ++p) {
+    const std::int32_t root = pieces.find(static_cast<std::int32_t>(p), cells.to_cell[p]);
+    if (static_cast<std::size_t>(root) == p) {
+      cells.cell[p] = static_cast<std::int32_t>(cells.root.size());
+      cells.root.push_back(root);
+    } else {
+      cells.cell[p] = cells.cell[static_cast<std::size_t>(root)];
+    }
+  }
+}
+
+// The pieces of each hex, ascending.
+std::vector<std::int32_t> group_pieces(const Cells& cells, std::vector<std::size_t>& first) {
+  first.assign(cells.root.size() + 1, 0);
+  for (std::int32_t c : cells.cell) ++first[static_cast<std::size_t>(c) + 1];
+  for (std::size_t c = 0; c < cells.root.size(); ++c) first[c + 1] += first[c];
+  std::vector<std::int32_t> members(cells.cell.size());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for (std::size_t p = 0; p < cells.cell.size(); ++p)
+    members[next[static_cast<std::size_t>(cells.cell[p])]++] = static_cast<std::int32_t>(p);
+  return members;
+}
+
+// The four rows of lattice points at the corners of a row of cubes.
+struct CornerRows {
+  std::int32_t of = -1;
+  std::array<const Row*, 4> rows{};
+};
+
+// Corner vertices that the tet of a piece holds; false on a contradiction.
+bool add_corners(const Cells& cells, const LatticeVertices& vertices, std::size_t piece, CornerRows& near,
+                 std::array<std::int32_t, 8>& corners) {
+  const std::int32_t row_index = cells.piece_row[piece];
+  const Row& row = cells.pieces.rows[static_cast<std::size_t>(row_index)];
+  if (near.of != row_index) {
+    near.of = row_index;
+    for (std::int32_t k = 0; k < 4; ++k)
+      near.rows[static_cast<std::size_t>(k)] = vertices.points.find(row.tet, row.y + (k & 1), row.z + (k >> 1));
+  }
+  const std::int32_t x = cells.cube(piece)[0];
+  bool good = true;
+  for (std::uint8_t bits = 0; bits < 8; ++bits) {
+    const Row* points = near.rows[bits >> 1U];
+    const std::int32_t at = x + (bits & 1);
+    if (points == nullptr || at < points->begin || at >= points->end) continue;
+    const std::int32_t vertex = vertices.ids[static_cast<std::size_t>(points->first + (at - points->begin))];
+    std::int32_t& slot = corners[rotate_corner(cells.to_cell[piece], bits)];
+    good = good && (slot < 0 || slot == vertex);
+    slot = vertex;
+  }
+  return good;
+}
+
+void find_corners(const TetMesh& mesh, const LatticeVertices& vertices, Cells& cells) {
+  std::vector<std::size_t> first;
+  const std::vector<std::int32_t> members = group_pieces(cells, first);
+  cells.corners.assign(cells.root.size(), {-1, -1, -1, -1, -1, -1, -1, -1});
+  std::vector<char> bad(cells.root.size(), 0);
+  parallel_for(cells.root.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    CornerRows near;
+    for (std::size_t c = begin; c < end; ++c) {
+      bool good = true;
+      for (std::size_t m = first[c]; m < first[c + 1]; ++m)
+        good = add_corners(cells, vertices, static_cast<std::size_t>(members[m]), near, cells.corners[c]) && good;
+      for (std::int32_t vertex : cells.corners[c]) good = good && vertex >= 0;
+      bad[c] = !good;
+    }
+  });
+  for (std::size_t c = 0; c < bad.size(); ++c)
+    if (bad[c] != 0) {
+      const auto piece = static_cast<std::size_t>(cells.root[c]);
+      const Lattice3 cube = cells.cube(piece);
+      fail(mesh, cells.tet(piece),
+           fmt::format("cube ({}, {}, {}) of its chart has not exactly eight corners.", cube[0], cube[1], cube[2]));
+    }
+}
+
+}  // namespace
+
+std::uint8_t rotate_corner(octahedral::Rotation r, std::uint8_t bits) {
+  static const auto table = [] {
+    std::array<std::array<std::uint8_t, 8>, octahedral::order> t{};
+    for (octahedral::Rotation rotation = 0; rotation < octahedral::order; ++rotation)
+      for (std::uint8_t b = 0; b < 8; ++b) {
+        const Lattice3 centred{(b & 1) * 2 - 1, (b >> 1 & 1) * 2 - 1, (b >> 2 & 1) * 2 - 1};
+        const Lattice3 image = rotate(rotation, centred);
+        t[rotation][b] =
+            static_cast<std::uint8_t>((image[0] > 0 ? 1 : 0) | (image[1] > 0 ? 2 : 0) | (image[2] > 0 ? 4 : 0));
+      }
+    return t;
+  }();
+  return table[r][bits];
+}
+
+Cells find_cells(const TetMesh& mesh, const FixedMap& map, const LatticeVertices& vertices) {
+  Cells cells;
+  cells.pieces = rasterise_cubes(map);
+  if (cells.pieces.size > std::numeric_limits<std::int32_t>::max())
+    throw Error(ExitCode::bad_hex_mesh,
+                fmt::format("The integer-grid map has {} pieces of hexes, more than 2^31.", cells.pieces.size));
+  cells.piece_row.resize(static_cast<std::size_t>(cells.pieces.size));
+  const auto& rows = cells.pieces.rows;
+  parallel_for(rows.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r)
+      for (std::int64_t i = 0; i < rows[r].end - rows[r].begin; ++i)
+        cells.piece_row[static_cast<std::size_t>(rows[r].first + i)] = static_cast<std::int32_t>(r);
+  });
+  number_cells(mesh, map, cells);
+  find_corners(mesh, vertices, cells);
+  return cells;
+}
+
+}  // namespace hexfield::hex

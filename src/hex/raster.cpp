@@ -1,0 +1,233 @@
+#include "raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hexfield/base/parallel.hpp"
+#include "hexfield/mesh/tet_mesh.hpp"
+
+namespace hexfield::hex {
+namespace {
+
+std::int32_t floor_lattice(std::int64_t x, std::int64_t one) {
+  const std::int64_t q = x / one;
+  return static_cast<std::int32_t>(q * one > x ? q - 1 : q);
+}
+std::int32_t ceil_lattice(std::int64_t x, std::int64_t one) { return -floor_lattice(-x, one); }
+
+// Lowest corners of items that meet the bounding box of the corners.
+template <class Corners>
+void bound(const Corners& corners, ConvexItems& items) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::int64_t low = corners[0][a];
+    std::int64_t high = low;
+    for (const Fixed3& c : corners) {
+      low = std::min(low, c[a]);
+      high = std::max(high, c[a]);
+    }
+    if (items.kind == ConvexItems::Kind::cubes) {
+      items.low[a] = floor_lattice(low, items.one);
+      items.high[a] = ceil_lattice(high, items.one) - 1;
+    } else {
+      items.low[a] = ceil_lattice(low, items.one);
+      items.high[a] = floor_lattice(high, items.one);
+    }
+  }
+}
+
+// Lines of the projection along `axis` through corners i, j that have all corners on one closed side.
+template <class Corners>
+void add_silhouette(const Corners& corners, std::size_t axis, ConvexItems& items) {
+  Fixed3 along{};
+  along[axis] = 1;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t j = i + 1; j < corners.size(); ++j) {
+      const std::array<Wide, 3> normal = exact_cross(along, minus(corners[j], corners[i]));
+      if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0) continue;
+      const HalfSpace line(normal, corners[i]);
+      int lowest = 0;
+      int highest = 0;
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        if (k == i || k == j) continue;
+        const int side = line.side(corners[k]);
+        lowest = std::min(lowest, side);
+        highest = std::max(highest, side);
+      }
+      if (lowest >= 0) items.add(line);
+      if (highest <= 0) items.add(line.flipped());
+    }
+}
+
+std::array<HalfSpace, 4> inner_half_spaces(const std::array<Fixed3, 4>& c) {
+  std::array<HalfSpace, 4> faces;
+  for (std::size_t f = 0; f < 4; ++f) {
+    const auto& v = tet_face_vertices[f];
+    const Fixed3& a = c[static_cast<std::size_t>(v[0])];
+    const auto ab = minus(c[static_cast<std::size_t>(v[1])], a);
+    const auto ac = minus(c[static_cast<std::size_t>(v[2])], a);
+    faces[f] = HalfSpace(exact_cross(ac, ab), a);
+  }
+  return faces;
+}
+
+ConvexItems start(const FixedMap& map, ConvexItems::Kind kind) {
+  ConvexItems items;
+  items.kind = kind;
+  items.one = map.one();
+  return items;
+}
+
+template <class Fill>
+RowTable rasterise(const FixedMap& map, const Fill& fill) {
+  constexpr std::size_t grain = 256;
+  const std::size_t n = map.corners.size();
+  std::vector<std::vector<Row>> pieces((n + grain - 1) / grain);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) fill(TetId(t), pieces[begin / grain]);
+  });
+  RowTable table;
+  table.tet_rows.assign(n + 1, 0);
+  std::size_t total = 0;
+  for (const auto& piece : pieces) total += piece.size();
+  table.rows.reserve(total);
+  for (auto& piece : pieces) {
+    for (Row& row : piece) {
+      row.first = table.size;
+      table.size += row.end - row.begin;
+      ++table.tet_rows[row.tet.index() + 1];
+      table.rows.push_back(row);
+    }
+    piece = {};
+  }
+  for (std::size_t t = 0; t < n; ++t) table.tet_rows[t + 1] += table.tet_rows[t];
+  return table;
+}
+
+}  // namespace
+
+const Row* RowTable::find(TetId t, std::int32_t y, std::int32_t z) const {
+  const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(tet_rows[t.index()]);
+  const auto end = rows.begin() + static_cast<std::ptrdiff_t>(tet_rows[t.index() + 1]);
+  const auto row = std::lower_bound(
+      begin, end, std::pair(z, y),
+      [](const Row& r, const std::pair<std::int32_t, std::int32_t>& k) { return std::pair(r.z, r.y) < k; });
+  return row != end && row->y == y && row->z == z ? &*row : nullptr;
+}
+
+bool ConvexItems::contains(const Lattice3& x) const {
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& n = half_spaces[k].normal();
+    Fixed3 p{};
+    for (std::size_t a = 0; a < 3; ++a) p[a] = (x[a] + (kind == Kind::cubes && n[a] > 0 ? 1 : 0)) * one;
+    const int side = half_spaces[k].side(p);
+    if (kind == Kind::cubes ? side <= 0 : side < 0) return false;
+  }
+  return true;
+}
+
+// A range of x that surely holds all items of the row, by double precision and a margin.
+std::array<std::int32_t, 2> ConvexItems::estimate(std::int32_t y, std::int32_t z) const {
+  double low_x = low[0];
+  double high_x = high[0];
+  const auto unit = static_cast<double>(one);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& n = half_spaces[k].normal();
+    const Fixed3& base = half_spaces[k].base();
+    const auto offset = [&](std::size_t a, std::int32_t x) {
+      return static_cast<double>((x + (kind == Kind::cubes && n[a] > 0 ? 1 : 0)) * one - base[a]);
+    };
+    const double terms[2] = {n[1] * offset(1, y), n[2] * offset(2, z)};
+    if (n[0] == 0) {
+      if (terms[0] + terms[1] < -1e-15 * (std::abs(terms[0]) + std::abs(terms[1]))) return {0, -1};
+      continue;
+    }
+    const double margin = 1e-6 + 1e-15 * (std::abs(terms[0]) + std::abs(terms[1])) / (std::abs(n[0]) * unit);
+    const double x = (static_cast<double>(base[0]) - (terms[0] + terms[1]) / n[0]) / unit;
+    if (n[0] > 0)
+      low_x = std::max(low_x, x - margin - (kind == Kind::cubes ? 1 : 0));
+    else
+      high_x = std::min(high_x, x + margin);
+  }
+  if (!(low_x <= high_x)) return {0, -1};
+  return {static_cast<std::int32_t>(std::ceil(low_x)), static_cast<std::int32_t>(std::floor(high_x))};
+}
+
+void ConvexItems::for_each_row(
+    const std::function<void(std::int32_t, std::int32_t, std::int32_t, std::int32_t)>& row) const {
+  for (std::int32_t z = low[2]; z <= high[2]; ++z)
+    for (std::int32_t y = low[1]; y <= high[1]; ++y) {
+      auto [begin, last] = estimate(y, z);
+      while (begin <= last && !contains({begin, y, z})) ++begin;
+      while (begin < last && !contains({last, y, z})) --last;
+      if (begin <= last) row(y, z, begin, last + 1);
+    }
+}
+
+ConvexItems cubes_of_tet(const FixedMap& map, TetId t) {
+  ConvexItems items = start(map, ConvexItems::Kind::cubes);
+  const auto& corners = map.corners[t.index()];
+  bound(corners, items);
+  if (items.low == items.high) return items;  // inside one cube
+  for (const HalfSpace& h : inner_half_spaces(corners)) items.add(h);
+  for (std::size_t axis = 0; axis < 3; ++axis) add_silhouette(corners, axis, items);
+  return items;
+}
+
+ConvexItems cubes_of_triangle(const FixedMap& map, const std::array<Fixed3, 3>& corners) {
+  ConvexItems items = start(map, ConvexItems::Kind::cubes);
+  bound(corners, items);
+  if (items.low == items.high) return items;
+  const HalfSpace plane(exact_cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])), corners[0]);
+  items.add(plane);
+  items.add(plane.flipped());
+  for (std::size_t axis = 0; axis < 3; ++axis) add_silhouette(corners, axis, items);
+  return items;
+}
+
+ConvexItems points_of_tet(const FixedMap& map, TetId t) {
+  ConvexItems items = start(map, ConvexItems::Kind::points);
+  const auto& corners = map.corners[t.index()];
+  bound(corners, items);
+  for (std::size_t a = 0; a < 3; ++a)
+    if (items.low[a] > items.high[a]) return items;
+  for (const HalfSpace& h : inner_half_spaces(corners)) items.add(h);
+  return items;
+}
+
+ConvexItems cubes_beside_triangle(const FixedMap& map, const std::array<Fixed3, 3>& corners, std::size_t axis,
+                                  bool above) {
+  ConvexItems items = start(map, ConvexItems::Kind::cubes);
+  bound(corners, items);
+  items.low[axis] = items.high[axis] = floor_lattice(corners[0][axis], items.one) - (above ? 0 : 1);
+  add_silhouette(corners, axis, items);
+  return items;
+}
+
+std::uint8_t carrier_mask(const ConvexItems& points, const Lattice3& x, std::int64_t one) {
+  std::uint8_t mask = 0;
+  for (std::size_t f = 0; f < 4; ++f)
+    if (points.half_spaces[f].side({x[0] * one, x[1] * one, x[2] * one}) == 0)
+      mask = static_cast<std::uint8_t>(mask | (1U << f));
+  return mask;
+}
+
+RowTable rasterise_cubes(const FixedMap& map) {
+  return rasterise(map, [&](TetId t, std::vector<Row>& rows) {
+    cubes_of_tet(map, t).for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t begin, std::int32_t end) {
+      rows.push_back({y, z, begin, end, t});
+    });
+  });
+}
+
+RowTable rasterise_points(const FixedMap& map) {
+  return rasterise(map, [&](TetId t, std::vector<Row>& rows) {
+    const ConvexItems items = points_of_tet(map, t);
+    if (items.count == 0) return;
+    items.for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t begin, std::int32_t end) {
+      rows.push_back({y, z, begin, end, t, carrier_mask(items, {begin, y, z}, map.one()),
+                      carrier_mask(items, {end - 1, y, z}, map.one())});
+    });
+  });
+}
+
+}  // namespace hexfield::hex
