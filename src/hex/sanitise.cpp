@@ -323,10 +323,15 @@ SanitisedMap Sanitiser::run() {
       largest = std::max(largest, p.cwiseAbs().maxCoeff());
     }
   shift_ = hex::fixed_shift(std::ceil(largest + tolerance_));
-  round_transitions();
+  corners_.resize(mesh_.num_tets());
+  for (std::size_t t = 0; t < mesh_.num_tets(); ++t)
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        corners_[t][i][a] = std::llround(std::ldexp(map_.uvw[t][i][static_cast<Eigen::Index>(a)], shift_));
+  check_positive(result_);  // first, because a fold makes everything near it look wrong as well
+  if (result_.violations.empty()) round_transitions();
   if (!result_.violations.empty()) return std::move(result_);
   result_.map = map_;
-  corners_.resize(mesh_.num_tets());
   const std::size_t n = mesh_.num_vertices();
   std::vector<Found> found((n + grain - 1) / grain);
   parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
