@@ -12,4 +12,7 @@ if(TARGET hexfield)
     COMMAND ${HEXFIELD_PYTHON} ${house}/readme_commands.py ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/readme)
   set_tests_properties(house_readme PROPERTIES LABELS house TIMEOUT 900 PROCESSORS 2
     ENVIRONMENT "${HEXFIELD_TEST_ENVIRONMENT}")
+  add_test(NAME house_readme_options COMMAND ${HEXFIELD_PYTHON} ${house}/readme_options.py $<TARGET_FILE:hexfield>)
+  set_tests_properties(house_readme_options PROPERTIES LABELS house TIMEOUT 60
+    ENVIRONMENT "${HEXFIELD_TEST_ENVIRONMENT}")
 endif()
