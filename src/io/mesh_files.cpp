@@ -14,6 +14,10 @@ CellSoup read_soup(const std::filesystem::path& file) {
   const std::string_view text = data;
   if (text.starts_with("# vtk DataFile")) return read_legacy_vtk(std::move(in));
   const std::string first(Scanner(in).peek().substr(0, 40));
+  if (first.starts_with("$")) return read_gmsh(std::move(in));
+  const std::string extension = lower(file.extension().string());
+  if (first.starts_with("MeshVersionFormatted") || (extension == ".mesh" && first.starts_with("#")))
+    return read_medit(std::move(in));
   throw Error(
       ExitCode::bad_input,
       fmt::format("{}: begins with \"{}\", which is none of the formats known here (legacy VTK, Gmsh MSH 2.2 or "
@@ -28,8 +32,21 @@ void write_soup(const std::filesystem::path& file, const CellSoup& soup, const W
       case MeshFormat::vtk:
         write_legacy_vtk(out, soup, options.binary);
         break;
-      default:
-        throw Error(ExitCode::usage, fmt::format("{}: only .vtk can be written.", file.string()));
+      case MeshFormat::vtu:
+        write_vtu(out, soup, options.binary);
+        break;
+      case MeshFormat::msh41:
+        write_msh41(out, soup, options.binary);
+        break;
+      case MeshFormat::msh22:
+        write_msh22(out, soup, options.binary);
+        break;
+      case MeshFormat::medit:
+        write_medit(out, soup);
+        break;
+      case MeshFormat::abaqus:
+        write_abaqus(out, soup);
+        break;
     }
   });
 }
