@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hexfield/base/error.hpp"
+#include "hexfield/io/checkpoint.hpp"
 
 namespace hexfield::hdf5 {
 namespace {
@@ -202,3 +203,11 @@ void File::copy_group(const File& from, const std::string& group) {
 }
 
 }  // namespace hexfield::hdf5
+
+std::string hexfield::hdf5_version() {
+  unsigned major = 0;
+  unsigned minor = 0;
+  unsigned release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return fmt::format("{}.{}.{}", major, minor, release);
+}

@@ -64,6 +64,9 @@ class Checkpoint {
 /// True when the file starts like a checkpoint of this program (of any schema, whole or torn).
 bool looks_like_checkpoint(const std::filesystem::path& file);
 
+/// Version of the HDF5 library in use, "1.10.8".
+std::string hdf5_version();
+
 /// The two-slot ring of iterates of one named long solve, beside the checkpoint.
 class IterateRing {
  public:

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+#include "hexfield/field/compute_field.hpp"
+#include "hexfield/hex/hex_mesh.hpp"
+#include "hexfield/io/tet_io.hpp"
+#include "hexfield/map/compute_map.hpp"
+#include "hexfield/pipeline/options.hpp"
+#include "safe_points.hpp"
+#include "team.hpp"
+
+namespace hexfield {
+
+/// Entities that a verdict is about, for why.vtk; ids of the mesh of the field stage (or of the hex mesh for `hexes`).
+struct Culprits {
+  /// What is wrong with an entity: the scalar `kind` of why.vtk.
+  enum Kind { inverted_tet = 1, wrong_angle = 2, compound_edge = 3, bad_node = 4, bad_hex = 5, place = 6, other = 7 };
+  std::vector<std::pair<TetId, Kind>> tets;
+  std::vector<std::pair<EdgeKey, Kind>> edges;
+  std::vector<std::pair<VertexId, Kind>> nodes;
+  std::vector<std::size_t> hexes;
+  std::vector<Vec3> places;
+
+  bool empty() const { return tets.empty() && edges.empty() && nodes.empty() && hexes.empty() && places.empty(); }
+};
+
+/// Everything a run has reached. The values are complete on rank 0 and empty elsewhere.
+struct RunState {
+  Team& team;
+  const RunOptions& options;
+  Log& log;
+  SafePoints& safe_points;
+
+  TetInput input;
+  FieldResult field;
+  SeamlessResult seamless;
+  IgmResult igm;
+  HexMesh hexes;
+  Culprits culprits;
+  std::string sentence;           ///< the verdict when every stage has succeeded (rank 0)
+  nlohmann::ordered_json report;  ///< sections of report.json by the stages that made them (rank 0)
+};
+
+}  // namespace hexfield

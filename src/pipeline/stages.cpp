@@ -1,0 +1,156 @@
+#include "stages.hpp"
+
+#include <cmath>
+
+#include "hexfield/base/error.hpp"
+#include "hexfield/hex/extract.hpp"
+#include "hexfield/hex/improve.hpp"
+#include "hexfield/io/checkpoint_values.hpp"
+#include "hexfield/mesh/features.hpp"
+
+namespace hexfield {
+namespace {
+
+std::vector<Violation> no_violations(const RunState&) { return {}; }
+
+double volume(const TetMesh& mesh) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.num_tets(); ++t)
+    sum += signed_volume6(mesh, TetId(static_cast<std::int64_t>(t))) / 6;
+  return sum;
+}
+
+/// The wanted number of hexes; an edge length gives it through the volume. Collective.
+double wanted_hexes(const RunState& state) {
+  double wanted = state.options.target_hexes;
+  if (state.options.edge_length > 0) {
+    wanted = std::max(1.0, volume(state.field.mesh) / std::pow(state.options.edge_length, 3));
+  }
+  MPI_Bcast(&wanted, 1, MPI_DOUBLE, 0, state.team.comm());
+  return wanted;
+}
+
+Stage read_stage() {
+  Stage stage;
+  stage.name = "read";
+  stage.compute = [](RunState& state, const std::string&, Progress& progress) {
+    state.team.on_root([&] {
+      progress.report("reading " + state.options.input.string(), -1);
+      state.input = read_tet_mesh(state.options.input);
+      complete_features(state.input.mesh, state.input.features, state.options.feature_angle);
+    });
+  };
+  stage.pack = [](const RunState& state) { return pack(state.input); };
+  stage.unpack = [](RunState& state, const NamedArrays& arrays) { state.input = unpack_tet_input(arrays); };
+  stage.judge = [](RunState& state) {
+    state.report["input"]["tets"] = state.input.mesh.num_tets();
+    state.report["input"]["vertices"] = state.input.mesh.num_vertices();
+    state.report["input"]["features"] = {{"points", state.input.features.points.size()},
+                                         {"edges", state.input.features.edges.size()},
+                                         {"faces", state.input.features.faces.size()}};
+  };
+  stage.check = [](const RunState& state) { return check(state.input.mesh); };
+  return stage;
+}
+
+Stage field_stage() {
+  Stage stage;
+  stage.name = "field";
+  stage.compute = [](RunState& state, const std::string& basis, Progress& progress) {
+    state.team.together([&] {
+      state.field = compute_field(state.team.comm(), std::move(state.input.mesh), std::move(state.input.features),
+                                  state.options.field, state.safe_points.control(basis, progress));
+    });
+    state.input = {};
+  };
+  stage.pack = [](const RunState& state) { return pack(state.field); };
+  stage.unpack = [](RunState& state, const NamedArrays& arrays) {
+    state.field = unpack_field(arrays);
+    state.input = {};
+  };
+  stage.judge = judge_field;
+  stage.check = [](const RunState& state) { return check(state.field.mesh); };
+  return stage;
+}
+
+Stage seamless_stage() {
+  Stage stage;
+  stage.name = "seamless";
+  stage.compute = [](RunState& state, const std::string& basis, Progress& progress) {
+    SeamlessOptions options = state.options.seamless;
+    options.target_hexes = wanted_hexes(state);
+    state.team.together([&] {
+      const FieldResult& f = state.field;
+      state.seamless = compute_seamless_map(state.team.comm(), f.mesh, f.features, f.field, f.codes, options,
+                                            state.safe_points.control(basis, progress));
+    });
+  };
+  stage.pack = [](const RunState& state) { return pack(state.seamless); };
+  stage.unpack = [](RunState& state, const NamedArrays& arrays) {
+    state.seamless = unpack_seamless(arrays, state.field.mesh.num_tets());
+  };
+  stage.judge = judge_seamless;
+  stage.check = no_violations;
+  stage.iterations = [](const RunState& state) { return state.seamless.newton_steps; };
+  return stage;
+}
+
+Stage igm_stage() {
+  Stage stage;
+  stage.name = "igm";
+  stage.compute = [](RunState& state, const std::string& basis, Progress& progress) {
+    IgmOptions options = state.options.igm;
+    options.target_hexes = wanted_hexes(state);
+    options.edge_length = state.options.edge_length;
+    state.team.together([&] {
+      const FieldResult& f = state.field;
+      state.igm = compute_integer_grid_map(state.team.comm(), f.mesh, f.features, f.codes, state.seamless.map, options,
+                                           state.safe_points.control(basis, progress));
+    });
+    state.seamless.map = {};
+  };
+  stage.pack = [](const RunState& state) { return pack(state.igm); };
+  stage.unpack = [](RunState& state, const NamedArrays& arrays) {
+    state.igm = unpack_igm(arrays, state.field.mesh.num_tets());
+    state.seamless.map = {};
+  };
+  stage.judge = judge_igm;
+  stage.check = no_violations;
+  stage.iterations = [](const RunState& state) { return state.igm.newton_steps; };
+  return stage;
+}
+
+Stage extract_stage() {
+  Stage stage;
+  stage.name = "extract";
+  stage.compute = [](RunState& state, const std::string&, Progress&) {
+    state.team.on_root([&] { state.hexes = extract_hex_mesh(state.field.mesh, state.field.features, state.igm.map); });
+  };
+  stage.pack = [](const RunState& state) { return pack(state.hexes); };
+  stage.unpack = [](RunState& state, const NamedArrays& arrays) { state.hexes = unpack_hex_mesh(arrays); };
+  // Extraction may give hexes that only smoothing makes positive: the verdict comes after stage 8.
+  stage.judge = [](RunState&) {};
+  stage.check = no_violations;
+  return stage;
+}
+
+Stage improve_stage() {
+  Stage stage = extract_stage();
+  stage.name = "improve";
+  stage.compute = [](RunState& state, const std::string&, Progress& progress) {
+    state.team.on_root([&] {
+      improve_hex_mesh(state.hexes, state.field.mesh, state.field.features, state.options.improve,
+                       state.safe_points.control_on_root(progress));
+    });
+  };
+  stage.judge = judge_hexes;
+  return stage;
+}
+
+}  // namespace
+
+std::vector<Stage> all_stages() {
+  return {read_stage(), field_stage(), seamless_stage(), igm_stage(), extract_stage(), improve_stage()};
+}
+
+}  // namespace hexfield

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hexfield/io/named_arrays.hpp"
+#include "run_state.hpp"
+
+namespace hexfield {
+
+/// One stage of DESIGN section 1 as the runner sees it.
+struct Stage {
+  std::string name;
+  /// Computes the value of the stage from those before it. Collective.
+  std::function<void(RunState&, const std::string& basis, Progress&)> compute;
+  /// The value as checkpoint arrays, and back. Rank 0.
+  std::function<NamedArrays(const RunState&)> pack;
+  std::function<void(RunState&, const NamedArrays&)> unpack;
+  /// Adds the section of the report, and throws Error with a code from 4 to 7 and fills `culprits` when the value
+  /// does not allow the next stage. Rank 0.
+  std::function<void(RunState&)> judge;
+  /// Invariants of the value, for --check. Rank 0.
+  std::function<std::vector<Violation>(const RunState&)> check;
+  /// Iterations that computing took, for the report; empty when the stage has none.
+  std::function<std::int64_t(const RunState&)> iterations;
+};
+
+/// All stages in their order. Between field and seamless is the place of the repair of fields.
+std::vector<Stage> all_stages();
+
+void judge_field(RunState& state);
+void judge_seamless(RunState& state);
+void judge_igm(RunState& state);
+void judge_hexes(RunState& state);
+
+/// "(x, y, z)" for sentences.
+std::string place_text(const Vec3& p);
+
+}  // namespace hexfield
