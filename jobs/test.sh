@@ -9,14 +9,16 @@ top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build="$top/build/ci"
 cores=$(nproc)
 step="setting up"
+passed=no
 started=$SECONDS
 
 finish() {
   local status=$?
   trap - EXIT
-  if [ $status -eq 0 ]; then
+  if [ "$passed" = yes ]; then
     echo "test.sh: PASSED in $((SECONDS - started)) s"
   else
+    [ $status -ne 0 ] || status=1 # ended by a signal
     echo "test.sh: FAILED (status $status) while $step, after $((SECONDS - started)) s"
   fi
   exit $status
@@ -34,3 +36,4 @@ cmake --build "$build" --parallel "$cores"
 echo "test.sh: built in $((SECONDS - built)) s"
 step="testing"
 ctest --test-dir "$build" --parallel "$cores" --output-on-failure --timeout 900 "$@"
+passed=yes
