@@ -1,0 +1,55 @@
+#pragma once
+
+#include <mpi.h>
+#include <petscsf.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hexfield {
+
+/// Symmetric weighted graph on rank 0 (compressed rows, neighbours ascending, no loops).
+struct RootGraph {
+  std::vector<std::int64_t> offsets{0};
+  std::vector<std::int32_t> neighbours;
+  std::vector<double> weights;
+  std::size_t size() const { return offsets.size() - 1; }
+};
+
+/// The share of one rank: its owned nodes as rows, and the neighbours that other ranks own as ghosts.
+/// Nodes are renumbered such that each rank owns a contiguous range; local columns: owned, then ghosts.
+class NodeGraph {
+ public:
+  /// Cuts `graph` (read on rank 0) with METIS. Deterministic for a fixed number of ranks. Collective.
+  NodeGraph(MPI_Comm comm, const RootGraph& graph);
+  ~NodeGraph();
+  NodeGraph(const NodeGraph&) = delete;
+  NodeGraph& operator=(const NodeGraph&) = delete;
+
+  MPI_Comm comm() const { return comm_; }
+  std::size_t owned() const { return offsets.size() - 1; }
+  std::size_t local() const { return owned() + num_ghosts_; }
+
+  std::vector<std::int64_t> offsets{0};  ///< rows of the owned nodes
+  std::vector<std::int32_t> columns;     ///< local ids, ascending by number in the whole graph
+  std::vector<double> weights;
+  std::int64_t first = 0;  ///< number of the first owned node
+
+  /// `width` doubles per node from rank 0 (old order) to all local nodes. Collective.
+  std::vector<double> scatter(std::span<const double> on_root, int width) const;
+  /// Owned values to rank 0 in old order. Collective.
+  std::vector<double> gather(std::span<const double> values, int width) const;
+  /// Overwrites the ghosts. Collective.
+  void update_ghosts(std::span<double> values, int width) const;
+
+ private:
+  MPI_Comm comm_;
+  std::size_t num_ghosts_ = 0;
+  std::int64_t num_global_ = 0;
+  std::vector<std::int32_t> order_;  // rank 0: old id of each node, in the new order
+  std::vector<int> counts_;          // owned nodes per rank
+  PetscSF halo_ = nullptr;
+};
+
+}  // namespace hexfield
