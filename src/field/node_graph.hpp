@@ -7,15 +7,9 @@
 #include <span>
 #include <vector>
 
-namespace hexfield {
+#include "hexfield/field/octahedral_smoothing.hpp"
 
-/// Symmetric weighted graph on rank 0 (compressed rows, neighbours ascending, no loops).
-struct RootGraph {
-  std::vector<std::int64_t> offsets{0};
-  std::vector<std::int32_t> neighbours;
-  std::vector<double> weights;
-  std::size_t size() const { return offsets.size() - 1; }
-};
+namespace hexfield {
 
 /// The share of one rank: its owned nodes as rows, and the neighbours that other ranks own as ghosts.
 /// Nodes are renumbered such that each rank owns a contiguous range; local columns: owned, then ghosts.
