@@ -1,0 +1,75 @@
+#include "hexfield/field/compute_field.hpp"
+
+#include <algorithm>
+
+#include "hexfield/base/agree.hpp"
+#include "hexfield/field/align_field.hpp"
+#include "hexfield/field/constraints.hpp"
+#include "hexfield/field/edge_codes.hpp"
+#include "hexfield/field/matchings.hpp"
+#include "hexfield/field/presplit.hpp"
+#include "hexfield/field/transfer.hpp"
+#include "hexfield/field/vertex_field.hpp"
+
+namespace hexfield {
+namespace {
+
+std::vector<harmonics::Sh> harmonics_of(const std::vector<Quaternion>& frames) {
+  std::vector<harmonics::Sh> sh(frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) sh[i] = harmonics::of_frame(frames[i]);
+  return sh;
+}
+
+std::vector<AxisConstraint> feature_constraints(const FieldResult& result) {
+  return collect_constraints(result.mesh, result.features, result.field, {});
+}
+
+}  // namespace
+
+FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const FieldOptions& options,
+                          const Control& control) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  FieldResult result;
+  RootGraph graph;
+  std::vector<NodeConstraint> constraints;
+  agree(comm, [&] {
+    if (rank != 0) return;
+    result.mesh = std::move(mesh);
+    result.features = std::move(features);
+    FeatureAttribute follow(result.features);
+    split_for_features(result.mesh, result.features, {&follow});
+    compact(result.mesh, {&follow});
+    graph = vertex_graph(result.mesh);
+    constraints = vertex_constraints(result.mesh, result.features, options.normal_deviation_degrees);
+  });
+  SmoothingOptions smoothing;
+  smoothing.max_iterations = options.max_smoothing_iterations;
+  smoothing.tolerance = options.smoothing_tolerance;
+  SmoothingReport report;
+  const auto vertex_frames = smooth_octahedral_field(comm, graph, constraints, nullptr, smoothing, report, control);
+  agree(comm, [&] {
+    if (rank != 0) return;
+    std::vector<harmonics::Sh> sh = harmonics_of(vertex_frames);
+    FeatureAttribute follow(result.features);
+    refine_singular_faces(result.mesh, sh, options.singular_face_edge_factor, options.max_singular_splits, {&follow});
+    VertexShAttribute follow_sh(sh);
+    split_for_features(result.mesh, result.features, {&follow, &follow_sh});
+    compact(result.mesh, {&follow, &follow_sh});
+    result.field.frames = tet_frames(result.mesh, sh);
+    compute_matchings(result.mesh, result.field);
+    comb(result.mesh, result.field);
+  });
+  const DistributedMesh distributed(comm, result.mesh);
+  AlignOptions align;
+  align.sweeps = options.alignment_sweeps;
+  align_field(distributed, result.field, rank == 0 ? feature_constraints(result) : std::vector<AxisConstraint>(), align);
+  agree(comm, [&] {
+    if (rank != 0) return;
+    compute_matchings(result.mesh, result.field);
+    result.codes = compute_codes(result.mesh, result.features, result.field);
+  });
+  return result;
+}
+
+}  // namespace hexfield
