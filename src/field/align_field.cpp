@@ -34,7 +34,8 @@ std::vector<double> packed_constraints(std::size_t tets, std::span<const AxisCon
     p[0] = c.count;
     for (std::size_t k = 0; k < 2; ++k) {
       p[1 + k] = c.labels[k];
-      for (int d = 0; d < 3 && static_cast<int>(k) < c.count; ++d) p[3 + 3 * k + static_cast<std::size_t>(d)] = c.directions[k][d];
+      for (int d = 0; d < 3 && static_cast<int>(k) < c.count; ++d)
+        p[3 + 3 * k + static_cast<std::size_t>(d)] = c.directions[k][d];
     }
   }
   return packed;
@@ -103,8 +104,9 @@ AlignReport align_field(const DistributedMesh& mesh, FrameField& field, std::spa
             "The field to align does not belong to the distributed mesh.");
   });
   const AlignData data = distribute(mesh, field, constraints, rank == 0);
-  const std::span<const double> on_root =
-      rank == 0 && global > 0 ? std::span<const double>(field.frames[0].coeffs().data(), 4 * global) : std::span<const double>();
+  const std::span<const double> on_root = rank == 0 && global > 0
+                                              ? std::span<const double>(field.frames[0].coeffs().data(), 4 * global)
+                                              : std::span<const double>();
   const auto start = mesh.scatter_tets(on_root, 4);
   std::vector<Quaternion> current(data.tets + 1, Quaternion(0, 0, 0, 0));
   for (std::size_t i = 0; i < data.tets; ++i) current[i] = Quaternion(start.data() + 4 * i);
@@ -160,8 +162,7 @@ AlignReport align_submesh(const TetMesh& mesh, FrameField& field, std::span<cons
     for (int f = 0; f < 4; ++f) {
       const HalfFaceId o = mesh.opposite_half_face(HalfFaceId(t, f));
       if (!o.valid()) continue;
-      const Eigen::Vector4d g =
-          (field.frames[o.tet().index()] * octahedral::quaternion(field.matching(o))).coeffs();
+      const Eigen::Vector4d g = (field.frames[o.tet().index()] * octahedral::quaternion(field.matching(o))).coeffs();
       sum += g.dot(sum) < 0 ? Eigen::Vector4d(-g) : g;
       around[count++] = g;
     }
@@ -170,7 +171,8 @@ AlignReport align_submesh(const TetMesh& mesh, FrameField& field, std::span<cons
     if (const auto c = axes.find(t); c != axes.end()) q = project_frame(q, c->second);
     q = limited(own, q, limits.turn);
     for (std::size_t k = 0; k < count; ++k)
-      if (std::abs(around[k].dot(q.coeffs())) < limits.guard && std::abs(around[k].dot(q.coeffs())) < std::abs(around[k].dot(own.coeffs()))) {
+      if (std::abs(around[k].dot(q.coeffs())) < limits.guard &&
+          std::abs(around[k].dot(q.coeffs())) < std::abs(around[k].dot(own.coeffs()))) {
         ++report.reverted;
         return;
       }

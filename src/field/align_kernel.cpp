@@ -45,8 +45,9 @@ long jacobi_sweep(const AlignData& data, const SweepLimits& limits, const std::v
                   const std::vector<Quaternion>& current, std::vector<Quaternion>& next) {
   std::atomic<long> reverted{0};
   parallel_for(data.owned, grain, [&](std::size_t begin, std::size_t end) {
-    auto constraint = std::lower_bound(data.constraints.begin(), data.constraints.end(), begin,
-                                       [](const auto& c, std::size_t i) { return static_cast<std::size_t>(c.first) < i; });
+    auto constraint =
+        std::lower_bound(data.constraints.begin(), data.constraints.end(), begin,
+                         [](const auto& c, std::size_t i) { return static_cast<std::size_t>(c.first) < i; });
     long broken = 0;
     for (std::size_t i = begin; i < end; ++i) {
       double closest = 1;

@@ -11,10 +11,10 @@ namespace hexfield {
 /// Flat data of Algorithm 1 on one rank. Slot `tets` of the frames is a zero quaternion that stands for
 /// the missing neighbour at boundary faces.
 struct AlignData {
-  std::size_t owned = 0;  ///< tets that move: the first ones
-  std::size_t tets = 0;   ///< with ghosts
-  std::vector<std::array<std::int32_t, 4>> neighbours;             ///< per owned tet
-  std::vector<std::array<octahedral::Rotation, 4>> from_neighbour; ///< M_ji: q_j M_ji is in the chart of i
+  std::size_t owned = 0;                                            ///< tets that move: the first ones
+  std::size_t tets = 0;                                             ///< with ghosts
+  std::vector<std::array<std::int32_t, 4>> neighbours;              ///< per owned tet
+  std::vector<std::array<octahedral::Rotation, 4>> from_neighbour;  ///< M_ji: q_j M_ji is in the chart of i
   std::vector<std::pair<std::int32_t, FrameConstraint>> constraints;
 };
 

@@ -63,7 +63,8 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
   const DistributedMesh distributed(comm, result.mesh);
   AlignOptions align;
   align.sweeps = options.alignment_sweeps;
-  align_field(distributed, result.field, rank == 0 ? feature_constraints(result) : std::vector<AxisConstraint>(), align);
+  align_field(distributed, result.field, rank == 0 ? feature_constraints(result) : std::vector<AxisConstraint>(),
+              align);
   agree(comm, [&] {
     if (rank != 0) return;
     compute_matchings(result.mesh, result.field);

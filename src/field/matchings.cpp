@@ -87,7 +87,8 @@ std::vector<Violation> check(const TetMesh& mesh, const FrameField& field) {
     const TetId t(static_cast<std::int64_t>(i));
     if (!mesh.alive(t)) continue;
     if (!(std::abs(field.frames[i].norm() - 1) < 1e-9))
-      found.push_back({fmt::format("The frame of tet {} is not a unit quaternion.", i), {t.value}, {centroid(mesh, t)}});
+      found.push_back(
+          {fmt::format("The frame of tet {} is not a unit quaternion.", i), {t.value}, {centroid(mesh, t)}});
     for (int f = 0; f < 4; ++f) {
       const HalfFaceId h(t, f);
       const HalfFaceId o = mesh.opposite_half_face(h);

@@ -59,7 +59,8 @@ Rows cut_rows(const RootGraph& graph, const std::vector<std::int32_t>& order, co
   for (std::int64_t i = begin; i < end; ++i) {
     const auto old = static_cast<std::size_t>(order[static_cast<std::size_t>(i)]);
     row.clear();
-    for (auto k = static_cast<std::size_t>(graph.offsets[old]); k < static_cast<std::size_t>(graph.offsets[old + 1]); ++k)
+    for (auto k = static_cast<std::size_t>(graph.offsets[old]); k < static_cast<std::size_t>(graph.offsets[old + 1]);
+         ++k)
       row.emplace_back(number[static_cast<std::size_t>(graph.neighbours[k])], graph.weights[k]);
     std::sort(row.begin(), row.end());
     for (const auto& [column, weight] : row) rows.columns.push_back(column), rows.weights.push_back(weight);
@@ -85,7 +86,8 @@ NodeGraph::NodeGraph(MPI_Comm comm, const RootGraph& graph) : comm_(comm) {
       return part[static_cast<std::size_t>(a)] < part[static_cast<std::size_t>(b)];
     });
     number.resize(graph.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) number[static_cast<std::size_t>(order_[i])] = static_cast<std::int64_t>(i);
+    for (std::size_t i = 0; i < order_.size(); ++i)
+      number[static_cast<std::size_t>(order_[i])] = static_cast<std::int64_t>(i);
     for (idx_t p : part) ++counts_[static_cast<std::size_t>(p)];
   });
   MPI_Bcast(counts_.data(), ranks, MPI_INT, 0, comm);
@@ -97,7 +99,8 @@ NodeGraph::NodeGraph(MPI_Comm comm, const RootGraph& graph) : comm_(comm) {
   Rows rows;
   if (rank == 0) {
     for (int r = 1; r < ranks; ++r) {
-      const Rows theirs = cut_rows(graph, order_, number, starts[static_cast<std::size_t>(r)], starts[static_cast<std::size_t>(r) + 1]);
+      const Rows theirs =
+          cut_rows(graph, order_, number, starts[static_cast<std::size_t>(r)], starts[static_cast<std::size_t>(r) + 1]);
       send(theirs.offsets, r, comm), send(theirs.columns, r, comm), send(theirs.weights, r, comm);
     }
     rows = cut_rows(graph, order_, number, 0, starts[1]);
@@ -128,11 +131,12 @@ NodeGraph::NodeGraph(MPI_Comm comm, const RootGraph& graph) : comm_(comm) {
   for (std::size_t g = 0; g < ghosts.size(); ++g) {
     const auto owner = std::upper_bound(starts.begin(), starts.end(), ghosts[g]) - starts.begin() - 1;
     leaves[g] = static_cast<PetscInt>(num_owned + static_cast<std::int64_t>(g));
-    remote[g] = {static_cast<PetscInt>(owner), static_cast<PetscInt>(ghosts[g] - starts[static_cast<std::size_t>(owner)])};
+    remote[g] = {static_cast<PetscInt>(owner),
+                 static_cast<PetscInt>(ghosts[g] - starts[static_cast<std::size_t>(owner)])};
   }
   check_petsc(PetscSFCreate(comm, &halo_), "PetscSFCreate");
-  check_petsc(PetscSFSetGraph(halo_, static_cast<PetscInt>(num_owned), static_cast<PetscInt>(leaves.size()), leaves.data(),
-                              PETSC_COPY_VALUES, remote.data(), PETSC_COPY_VALUES),
+  check_petsc(PetscSFSetGraph(halo_, static_cast<PetscInt>(num_owned), static_cast<PetscInt>(leaves.size()),
+                              leaves.data(), PETSC_COPY_VALUES, remote.data(), PETSC_COPY_VALUES),
               "PetscSFSetGraph");
   check_petsc(PetscSFSetUp(halo_), "PetscSFSetUp");
 }

@@ -28,7 +28,8 @@ struct Frames {
 // The nodes of one rank (owned and ghosts) with their constraints, and the steps of the method on them.
 class Smoother {
  public:
-  Smoother(const NodeGraph& graph, const std::vector<double>& constraints) : graph_(graph), constraints_(graph.local()) {
+  Smoother(const NodeGraph& graph, const std::vector<double>& constraints)
+      : graph_(graph), constraints_(graph.local()) {
     for (std::size_t i = 0; i < graph.local(); ++i) {
       const double* p = constraints.data() + packed_constraint * i;
       constraints_[i].kind = static_cast<Kind>(static_cast<int>(p[0]));
@@ -127,8 +128,7 @@ Frames Smoother::linear_start(const SmoothingOptions& options, SmoothingReport& 
           a += value * bases[i].columns.col(k);
       }
       if (c.kind == Kind::free) frames.frame[i] = harmonics::project(a).frame;
-      if (c.kind == Kind::aligned)
-        frames.frame[i] = harmonics::project(a, harmonics::aligned_basis(c.direction)).frame;
+      if (c.kind == Kind::aligned) frames.frame[i] = harmonics::project(a, harmonics::aligned_basis(c.direction)).frame;
       if (c.kind == Kind::fixed) frames.frame[i] = c.frame;
       frames.sh[i] = harmonics::of_frame(frames.frame[i]);
     }
@@ -141,8 +141,10 @@ double Smoother::energy(const Frames& frames) const {
   double sum = parallel_sum(graph_.owned(), grain, [&](std::size_t begin, std::size_t end) {
     double part = 0;
     for (std::size_t i = begin; i < end; ++i)
-      for (auto k = static_cast<std::size_t>(graph_.offsets[i]); k < static_cast<std::size_t>(graph_.offsets[i + 1]); ++k)
-        part += graph_.weights[k] * (frames.sh[i] - frames.sh[static_cast<std::size_t>(graph_.columns[k])]).squaredNorm();
+      for (auto k = static_cast<std::size_t>(graph_.offsets[i]); k < static_cast<std::size_t>(graph_.offsets[i + 1]);
+           ++k)
+        part +=
+            graph_.weights[k] * (frames.sh[i] - frames.sh[static_cast<std::size_t>(graph_.columns[k])]).squaredNorm();
     return part;
   });
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, graph_.comm());
@@ -235,7 +237,8 @@ std::vector<Quaternion> smooth_octahedral_field(MPI_Comm comm, const RootGraph& 
   MPI_Comm_rank(comm, &rank);
   agree(comm, [&] {
     require(rank != 0 || constraints.size() == root_graph.size(), "A field needs one constraint record per node.");
-    require(rank != 0 || start == nullptr || start->size() == root_graph.size(), "A field to smooth needs a frame per node.");
+    require(rank != 0 || start == nullptr || start->size() == root_graph.size(),
+            "A field to smooth needs a frame per node.");
   });
   const NodeGraph graph(comm, root_graph);
   const Smoother smoother(graph, graph.scatter(packed(constraints), packed_constraint));

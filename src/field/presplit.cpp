@@ -11,7 +11,8 @@ namespace {
 struct Marks {
   std::vector<char> on_face, on_edge;  // per vertex
 
-  Marks(const TetMesh& mesh, const Features& features) : on_face(mesh.num_vertices(), 0), on_edge(mesh.num_vertices(), 0) {
+  Marks(const TetMesh& mesh, const Features& features)
+      : on_face(mesh.num_vertices(), 0), on_edge(mesh.num_vertices(), 0) {
     for (std::size_t i = 0; i < mesh.num_tets(); ++i) {
       const TetId t(static_cast<std::int64_t>(i));
       if (!mesh.alive(t)) continue;
@@ -43,7 +44,8 @@ std::vector<FaceKey> faces_to_split(const TetMesh& mesh, const Features& feature
       const FaceKey key = mesh.key(h);
       if (is_feature_face(mesh, features, h)) {
         int edges = 0;
-        for (std::size_t k = 0; k < 3; ++k) edges += static_cast<int>(features.edges.count(edge_key(key[k], key[(k + 1) % 3])));
+        for (std::size_t k = 0; k < 3; ++k)
+          edges += static_cast<int>(features.edges.count(edge_key(key[k], key[(k + 1) % 3])));
         if (edges >= 2) found.push_back(key);
       } else if (marks.on_face[key[0].index()] && marks.on_face[key[1].index()] && marks.on_face[key[2].index()]) {
         found.push_back(key);

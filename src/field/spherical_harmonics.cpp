@@ -88,9 +88,9 @@ Sh zonal(const Vec3& n) {
   const double xx = x * x, yy = y * y, zz = z * z;
   static const double s35 = std::sqrt(35.0), s5 = std::sqrt(5.0), h35 = std::sqrt(17.5) / 2, h5 = std::sqrt(2.5) / 2;
   Sh r;
-  r << s35 / 2 * x * y * (xx - yy), h35 * y * z * (3 * xx - yy), s5 / 2 * x * y * (7 * zz - 1), h5 * y * z * (7 * zz - 3),
-      (35 * zz * zz - 30 * zz + 3) / 8, h5 * x * z * (7 * zz - 3), s5 / 4 * (xx - yy) * (7 * zz - 1),
-      h35 * x * z * (xx - 3 * yy), s35 / 8 * (xx * xx - 6 * xx * yy + yy * yy);
+  r << s35 / 2 * x * y * (xx - yy), h35 * y * z * (3 * xx - yy), s5 / 2 * x * y * (7 * zz - 1),
+      h5 * y * z * (7 * zz - 3), (35 * zz * zz - 30 * zz + 3) / 8, h5 * x * z * (7 * zz - 3),
+      s5 / 4 * (xx - yy) * (7 * zz - 1), h35 * x * z * (xx - 3 * yy), s35 / 8 * (xx * xx - 6 * xx * yy + yy * yy);
   return r;
 }
 

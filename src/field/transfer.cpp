@@ -16,6 +16,39 @@ bool is_singular(const FaceKey& f, const std::vector<Quaternion>& frames) {
   return octahedral::product(octahedral::product(ab, bc), ca) != octahedral::identity;
 }
 
+double length(const TetMesh& mesh, const EdgeKey& e) { return (mesh.point(e[0]) - mesh.point(e[1])).norm(); }
+
+// Longest edge of a simplex; the smaller key wins ties.
+template <class Vertices>
+EdgeKey longest_edge(const TetMesh& mesh, const Vertices& v) {
+  EdgeKey best = edge_key(v[0], v[1]);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    for (std::size_t j = i + 1; j < v.size(); ++j) {
+      const EdgeKey e = edge_key(v[i], v[j]);
+      const double margin = 1e-12 * length(mesh, best);
+      if (length(mesh, e) > length(mesh, best) + margin || (length(mesh, e) > length(mesh, best) - margin && e < best))
+        best = e;
+    }
+  return best;
+}
+
+// Follows longest edges of the tets around an edge until none is longer: splitting only such edges keeps
+// the tets from degenerating [Rivara 1997].
+EdgeKey locally_longest_edge(const TetMesh& mesh, EdgeKey edge, TetId seed) {
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (TetId t : edge_ring(mesh, seed, edge[0], edge[1]).tets) {
+      const EdgeKey e = longest_edge(mesh, mesh.vertices(t));
+      if (length(mesh, e) <= length(mesh, edge) * (1 + 1e-9)) continue;
+      edge = e;
+      seed = t;
+      moved = true;
+      break;
+    }
+  }
+  return edge;
+}
+
 double mean_edge(const TetMesh& mesh) {
   double sum = 0;
   std::size_t count = 0;
@@ -55,18 +88,20 @@ RefinementReport refine_singular_faces(TetMesh& mesh, std::vector<harmonics::Sh>
       if ((!o.valid() || h < o) && is_singular(mesh.key(h), frames)) queue.push_back(mesh.key(h));
     }
   RefinementReport report;
-  for (; !queue.empty(); queue.pop_front()) {
+  while (!queue.empty()) {
     const FaceKey f = queue.front();
-    std::array<EdgeKey, 3> edges = {EdgeKey{f[0], f[1]}, EdgeKey{f[0], f[2]}, EdgeKey{f[1], f[2]}};
-    auto length = [&](const EdgeKey& e) { return (mesh.point(e[0]) - mesh.point(e[1])).norm(); };
-    const EdgeKey longest =
-        *std::max_element(edges.begin(), edges.end(), [&](const EdgeKey& a, const EdgeKey& b) { return length(a) < length(b); });
-    if (length(longest) <= limit || !find_half_face(mesh, f).valid()) continue;
+    const HalfFaceId h0 = find_half_face(mesh, f);
+    const EdgeKey longest = longest_edge(mesh, f);
+    if (!h0.valid() || length(mesh, longest) <= limit) {
+      queue.pop_front();
+      continue;
+    }
     if (report.splits == max_splits) {
       report.capped = true;
       break;
     }
-    const VertexId v = split_edge(mesh, longest[0], longest[1], attributes);
+    const EdgeKey edge = locally_longest_edge(mesh, longest, h0.tet());
+    const VertexId v = split_edge(mesh, edge[0], edge[1], attributes);
     ++report.splits;
     frames.push_back(harmonics::project(vertex_sh[v.index()]).frame);
     for (TetId t : vertex_star(mesh, v))

@@ -14,8 +14,8 @@ using Kind = NodeConstraint::Kind;
 constexpr double fit_degrees = 9;
 
 struct Surroundings {
-  std::vector<Vec3> normals;    // weighted by the angle of the face at the vertex
-  std::vector<Vec3> tangents;   // unit, away from the vertex
+  std::vector<Vec3> normals;   // weighted by the angle of the face at the vertex
+  std::vector<Vec3> tangents;  // unit, away from the vertex
   bool node = false;
 };
 

@@ -35,7 +35,9 @@ TEST(SphericalHarmonics, ReferenceIsFixedByQuarterTurns) {
 }
 
 TEST(SphericalHarmonics, KnownInnerProductsOfRotatedFrames) {
-  auto dot = [](const Vec3& axis, double degrees) { return reference().dot(rotated(about(axis, degrees), reference())); };
+  auto dot = [](const Vec3& axis, double degrees) {
+    return reference().dot(rotated(about(axis, degrees), reference()));
+  };
   EXPECT_NEAR(dot({0, 0, 1}, 45), 1.0 / 6, 1e-12);
   EXPECT_NEAR(dot({1, 1, 1}, 60), -13.0 / 27, 1e-12);
   EXPECT_NEAR(dot({1, 1, 0}, 90), -11.0 / 24, 1e-12);

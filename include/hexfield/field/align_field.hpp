@@ -12,17 +12,17 @@ namespace hexfield {
 
 struct AlignOptions {
   int sweeps = 100;
-  double guard_degrees = 170;     ///< matched frames never get this far apart, so that no index can jump
-  double max_turn_degrees = 9;    ///< largest turn of one frame in one sweep; keeps the guard safe
-  double tolerance = 0;           ///< ends when no frame turned more than this (radians); 0: all sweeps
+  double guard_degrees = 170;   ///< matched frames never get this far apart, so that no index can jump
+  double max_turn_degrees = 9;  ///< largest turn of one frame in one sweep; keeps the guard safe
+  double tolerance = 0;         ///< ends when no frame turned more than this (radians); 0: all sweeps
 };
 
 struct AlignReport {
   int sweeps = 0;
-  double largest_turn = 0;   ///< radians, in the last sweep
-  double energy = 0;         ///< sum over inner faces of the squared angle (radians^2) between matched frames
-  long reverted = 0;         ///< updates that the guard undid
-  long misaligned = 0;       ///< tets that still miss a constraint by more than 1e-9 radians
+  double largest_turn = 0;  ///< radians, in the last sweep
+  double energy = 0;        ///< sum over inner faces of the squared angle (radians^2) between matched frames
+  long reverted = 0;        ///< updates that the guard undid
+  long misaligned = 0;      ///< tets that still miss a constraint by more than 1e-9 radians
 };
 
 /// At most two perpendicular axes of one tet that constraints fix; further ones are dropped, faces first.

@@ -31,12 +31,12 @@ EdgeCode interior_code(const TetMesh& mesh, const FrameField& field, const EdgeR
 
 /// A fan of tets around a -> b between two consecutive feature faces.
 struct Sector {
-  std::vector<TetId> tets;             ///< counter-clockwise
-  std::vector<HalfFaceId> crossings;   ///< half-faces between consecutive tets: one less than tets
-  HalfFaceId first;                    ///< feature half-face of the first tet
-  HalfFaceId last;                     ///< feature half-face of the last tet
-  int quads = 0;                       ///< number of quad sectors, or undetermined_code
-  double dihedral = 0;                 ///< radians
+  std::vector<TetId> tets;            ///< counter-clockwise
+  std::vector<HalfFaceId> crossings;  ///< half-faces between consecutive tets: one less than tets
+  HalfFaceId first;                   ///< feature half-face of the first tet
+  HalfFaceId last;                    ///< feature half-face of the last tet
+  int quads = 0;                      ///< number of quad sectors, or undetermined_code
+  double dihedral = 0;                ///< radians
 };
 
 /// The sectors around a -> b; boundary faces always bound one. Empty for an inner edge without feature faces.
