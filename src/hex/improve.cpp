@@ -200,19 +200,22 @@ void Improver::move_vertex(std::size_t v, const EnergyShape& shape) {
   const Vec3 x = hexes_.points[v];
   Vec3 gradient;
   const double energy = patch_energy(patch, x, shape, &gradient);
-  if (!gradient.allFinite()) return;
+  if (!gradient.allFinite() || gradient.norm() * patch.front().scale <= 1e-5 * energy) return;
   Vec3 direction = newton_direction(v, patch, gradient, shape);
   const double longest = 0.5 * patch.front().scale;
   const double length = direction.norm();
   if (!(length > 1e-9 * patch.front().scale)) return;
   if (length > longest) direction *= longest / length;
+  // Sides may not cut deeper through a curved shape than they do, unless that is what untangling takes.
+  const bool guarded = minimum_ > 0 && places_.kind(v) != hex::VertexPlaces::Kind::free;
+  const double bound = guarded ? std::max(places_.chord_error(v, x, hexes_.points), places_.small_chord_error()) : -1;
   for (double t = 1; t > 0.01; t *= 0.4) {
     const Vec3 y = places_.project(v, x + t * direction);
     const double lower = patch_energy(patch, y, shape, nullptr);
     if (!(lower < energy)) continue;
     const bool kept = std::all_of(patch.begin(), patch.end(),
                                   [](const Corner& c) { return !c.keep || hex::scaled_jacobian(c) > 1e-9; });
-    if (!kept) continue;
+    if (!kept || (bound >= 0 && places_.chord_error(v, y, hexes_.points) > bound)) continue;
     hexes_.points[v] = y;
     return;
   }
