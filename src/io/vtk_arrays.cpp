@@ -35,16 +35,31 @@ std::size_t bytes_of(VtkType type) {
 
 VtkType vtk_type(const Scanner& in, std::string_view name) {
   // vtkIdType is written as int by VTK's own legacy writer.
-  static constexpr std::pair<std::string_view, VtkType> names[] = {
-      {"double", VtkType::f64},        {"float", VtkType::f32},
-      {"int", VtkType::i32},           {"vtktypeint64", VtkType::i64},
-      {"long", VtkType::i64},          {"vtkidtype", VtkType::i32},
-      {"unsigned_char", VtkType::u8},  {"char", VtkType::i8},
-      {"signed_char", VtkType::i8},    {"unsigned_short", VtkType::u16},
-      {"short", VtkType::i16},         {"unsigned_int", VtkType::u32},
-      {"unsigned_long", VtkType::u64}, {"vtktypeuint64", VtkType::u64},
-      {"long_long", VtkType::i64},     {"bit", VtkType::bit},
-      {"string", VtkType::text}};
+  static constexpr std::pair<std::string_view, VtkType> names[] = {{"double", VtkType::f64},
+                                                                   {"float", VtkType::f32},
+                                                                   {"int", VtkType::i32},
+                                                                   {"vtktypeint64", VtkType::i64},
+                                                                   {"long", VtkType::i64},
+                                                                   {"vtkidtype", VtkType::i32},
+                                                                   {"unsigned_char", VtkType::u8},
+                                                                   {"char", VtkType::i8},
+                                                                   {"signed_char", VtkType::i8},
+                                                                   {"unsigned_short", VtkType::u16},
+                                                                   {"short", VtkType::i16},
+                                                                   {"unsigned_int", VtkType::u32},
+                                                                   {"unsigned_long", VtkType::u64},
+                                                                   {"vtktypeuint64", VtkType::u64},
+                                                                   {"long_long", VtkType::i64},
+                                                                   {"vtktypeint8", VtkType::i8},
+                                                                   {"vtktypeuint8", VtkType::u8},
+                                                                   {"vtktypeint16", VtkType::i16},
+                                                                   {"vtktypeuint16", VtkType::u16},
+                                                                   {"vtktypeint32", VtkType::i32},
+                                                                   {"vtktypeuint32", VtkType::u32},
+                                                                   {"vtktypefloat32", VtkType::f32},
+                                                                   {"vtktypefloat64", VtkType::f64},
+                                                                   {"bit", VtkType::bit},
+                                                                   {"string", VtkType::text}};
   const std::string wanted = lower(name);
   for (const auto& [text, type] : names)
     if (text == wanted) return type;
