@@ -27,22 +27,39 @@ void CellSoup::add(Shape s, const std::int64_t* vertices, std::int64_t colour, s
     throw Error(ExitCode::bad_input, fmt::format("{}: {} {} has the tag {}, which is larger than {}.", file, cell_word,
                                                  id, colour, std::numeric_limits<int>::max()));
   b.colours.push_back(colour > 0 ? static_cast<int>(colour) : 0);
+  if (colour < 0) ++b.negative;
   b.ids.push_back(id);
 }
 
-void check_soup(const CellSoup& soup) {
+void refuse_cell(const CellSoup& soup, Shape s, std::size_t cell, const std::string& reason) {
+  const auto n = static_cast<std::size_t>(shape_corners[static_cast<std::size_t>(s)]);
+  Vec3 centre = Vec3::Zero();
+  for (std::size_t k = 0; k < n; ++k)
+    centre += soup.points[static_cast<std::size_t>(soup.block(s).vertices[n * cell + k])] / static_cast<double>(n);
+  const std::int64_t id = soup.block(s).ids[cell];
+  throw Error(ExitCode::bad_input,
+              fmt::format("{}: {} {} ({}) at ({:.6g}, {:.6g}, {:.6g}) {}.", soup.file, soup.cell_word, id,
+                          shape_name[static_cast<std::size_t>(s)], centre.x(), centre.y(), centre.z(), reason),
+              {id}, {centre});
+}
+
+void refuse_without(const CellSoup& soup, const char* kind) {
+  throw Error(ExitCode::bad_input, fmt::format("{}: there are no {} in it ({} points, {} other cells).", soup.file,
+                                               kind, soup.points.size(), soup.num_cells()));
+}
+
+std::vector<int> volume_colours(const CellSoup& soup, Shape s) {
+  const auto& colours = soup.block(s).colours;
+  const bool unnamed = std::all_of(colours.begin(), colours.end(), [&](int c) { return c == colours[0] && c <= 1; }) &&
+                       (colours.empty() || !soup.names.contains({3, colours[0]}));
+  return unnamed ? std::vector<int>() : colours;
+}
+
+void check_indices(const CellSoup& soup) {
   constexpr std::size_t max_points = std::numeric_limits<std::int32_t>::max();
-  constexpr std::size_t max_tets = max_points / 4;
-  if (soup.points.size() > max_points || soup.block(Shape::tet).size() > max_tets)
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}: {} points and {} tets are more than one process can number ({} and {}).", soup.file,
-                            soup.points.size(), soup.block(Shape::tet).size(), max_points, max_tets));
-  for (std::size_t i = 0; i < soup.points.size(); ++i)
-    if (!soup.points[i].allFinite())
-      throw Error(ExitCode::bad_input,
-                  fmt::format("{}: vertex {} at ({}, {}, {}) is no finite point.", soup.file, soup.point_id(i),
-                              soup.points[i].x(), soup.points[i].y(), soup.points[i].z()),
-                  {soup.point_id(i)});
+  if (soup.points.size() > max_points)
+    throw Error(ExitCode::bad_input, fmt::format("{}: {} points are more than the {} that one process can number.",
+                                                 soup.file, soup.points.size(), max_points));
   const auto n = static_cast<std::int64_t>(soup.points.size());
   for (std::size_t s = 0; s < num_shapes; ++s) {
     const CellBlock& b = soup.blocks[s];

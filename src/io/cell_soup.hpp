@@ -24,11 +24,12 @@ inline constexpr std::array<int, num_shapes> shape_gmsh = {15, 1, 2, 3, 4, 5};
 inline constexpr std::array<const char*, num_shapes> shape_name = {"vertex",        "line",        "triangle",
                                                                    "quadrilateral", "tetrahedron", "hexahedron"};
 
-/// Cells of one shape: `corners` vertex indices each, a colour and the id that the file gave it.
+/// Cells of one shape: `corners` vertex indices each, a colour (0: none) and the id that the file gave it.
 struct CellBlock {
   std::vector<std::int32_t> vertices;
   std::vector<int> colours;
   std::vector<std::int64_t> ids;
+  std::size_t negative = 0;  ///< number of cells with a negative tag, which counts as none
 
   std::size_t size() const { return colours.size(); }
 };
@@ -54,11 +55,18 @@ struct CellSoup {
   void add(Shape s, const std::int64_t* vertices, std::int64_t colour, std::int64_t id);
 };
 
-/// Refuses vertex indices out of range and coordinates that are no finite numbers, by ids of the file.
-void check_soup(const CellSoup& soup);
+/// Refuses vertex indices out of range, by ids of the file.
+void check_indices(const CellSoup& soup);
+/// Error(bad_input) that names a cell, its place and the reason.
+[[noreturn]] void refuse_cell(const CellSoup& soup, Shape s, std::size_t cell, const std::string& reason);
+[[noreturn]] void refuse_without(const CellSoup& soup, const char* kind);
+/// Colours of the tets or hexes; empty when all have the colour 1 or none and this one has no name.
+std::vector<int> volume_colours(const CellSoup& soup, Shape s);
 
 /// Tets and features of a file; drops unused points, refuses what is no tet mesh with features.
 TetInput assemble_tets(const CellSoup& soup);
+/// Every defect that assemble_tets() would refuse.
+std::vector<Violation> check_tets(const CellSoup& soup);
 HexMesh assemble_hexes(const CellSoup& soup);
 
 CellSoup soup_of(const TetMesh& mesh, const Features& features);

@@ -8,11 +8,11 @@
 namespace hexfield {
 namespace io {
 
-CellSoup read_soup(const std::filesystem::path& file) {
-  const std::string data = load_file(file);
+CellSoup read_soup(const std::filesystem::path& file) { return parse_soup(file, load_file(file)); }
+
+CellSoup parse_soup(const std::filesystem::path& file, std::string_view data) {
   Scanner in(file.string(), data);
-  const std::string_view text = data;
-  if (text.starts_with("# vtk DataFile")) return read_legacy_vtk(std::move(in));
+  if (data.starts_with("# vtk DataFile")) return read_legacy_vtk(std::move(in));
   const std::string first(Scanner(in).peek().substr(0, 40));
   if (first.starts_with("$")) return read_gmsh(std::move(in));
   const std::string extension = lower(file.extension().string());
@@ -54,6 +54,8 @@ void write_soup(const std::filesystem::path& file, const CellSoup& soup, const W
 }  // namespace io
 
 TetInput read_tet_mesh(const std::filesystem::path& file) { return io::assemble_tets(io::read_soup(file)); }
+
+std::vector<Violation> check_tet_file(const std::filesystem::path& file) { return io::check_tets(io::read_soup(file)); }
 
 HexMesh read_hex_mesh(const std::filesystem::path& file) { return io::assemble_hexes(io::read_soup(file)); }
 

@@ -5,6 +5,7 @@
 
 #include "hexfield/io/hexex_io.hpp"
 #include "rational.hpp"
+#include "readers.hpp"
 #include "scanner.hpp"
 
 namespace hexfield {
@@ -103,9 +104,7 @@ void orient(const std::vector<Vec3>& points, std::vector<std::array<VertexId, 4>
 
 }  // namespace
 
-HexexInput read_hexex(const std::filesystem::path& file) {
-  const std::string data = io::load_file(file);
-  Scanner in(file.string(), data);
+HexexInput io::read_hexex(Scanner in) {
   HexexInput input;
   std::vector<Vec3> points = read_points(in);
   std::vector<std::array<VertexId, 4>> tets;
@@ -118,6 +117,11 @@ HexexInput read_hexex(const std::filesystem::path& file) {
   if (!in.at_end()) in.fail("the file goes on behind its last list");
   input.map.rotations = derive_rotations(input.mesh, input.map.uvw);
   return input;
+}
+
+HexexInput read_hexex(const std::filesystem::path& file) {
+  const std::string data = io::load_file(file);
+  return io::read_hexex(Scanner(file.string(), data));
 }
 
 std::vector<std::array<octahedral::Rotation, 4>> derive_rotations(const TetMesh& mesh,

@@ -28,11 +28,9 @@ std::string load_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse(std::generic_category().message(errno));
   std::string data;
-  constexpr std::size_t piece = std::size_t{1} << 22;
-  if (std::filesystem::is_regular_file(status)) {
-    const auto size = std::filesystem::file_size(file, code);
-    if (!code) data.reserve(size + 1);
-  }
+  // One byte more than the size, so that the end is met in the first read.
+  const auto size = std::filesystem::is_regular_file(status) ? std::filesystem::file_size(file, code) : 0;
+  const std::size_t piece = code || size == 0 ? std::size_t{1} << 16 : static_cast<std::size_t>(size) + 1;
   while (stream) {
     const std::size_t old = data.size();
     data.resize(old + piece);

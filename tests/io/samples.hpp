@@ -28,7 +28,7 @@ inline std::filesystem::path write_text(const std::string& name, const std::stri
 /// but one; its coordinates are no short decimals.
 inline TetInput tagged_box() {
   TetInput input{hexfield::testing::kuhn_box(2, 1, 1), {}};
-  for (Vec3& p : input.mesh.points) p = Vec3(p.x() / 3 + 0.1, p.y() * 1e-7, p.z() * 12345.678);
+  for (Vec3& p : input.mesh.points) p = Vec3(p.x() / 3 + 0.1, p.y() * 1e-2, p.z() * 12.345678);
   const auto v = [](int i) { return VertexId(i); };
   Features& f = input.features;
   f.points = {{v(0), 5}, {v(2), 7}};

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "hexfield/io/format.hpp"
 #include "hexfield/mesh/features.hpp"
@@ -11,6 +13,7 @@ namespace hexfield {
 struct TetInput {
   TetMesh mesh;
   Features features;
+  std::vector<std::string> notes{};  ///< sentences on what was dropped or changed while reading
 };
 
 /// Reads a tet mesh with tagged features, by the content of the file: legacy VTK 2.0 to 5.1, Gmsh MSH 2.2 and 4.1
@@ -25,9 +28,15 @@ struct TetInput {
 /// * Medit: the tag is the reference; of the vertices only the Corners are features, a corner without reference
 ///   gets its place in the list of corners.
 /// * `tet_colours` stays empty when every tet has the colour 1 or none and this colour has no name.
+/// * When every tet is inverted the file uses the other orientation: all are reversed.
 ///
-/// Refuses bad input with Error(bad_input) that names file, element and place. Not collective.
+/// Refuses bad input (check_input() of mesh/input_check.hpp) with Error(bad_input) that names file, element and
+/// place, by the ids of the file: VTK indices from 0, Gmsh tags, Medit indices from 1 in their list. Not collective.
 TetInput read_tet_mesh(const std::filesystem::path& file);
+
+/// Every defect of a file that could be read but holds no valid tet mesh, by the ids of the file; what cannot be read
+/// is an Error as in read_tet_mesh(). Not collective.
+std::vector<Violation> check_tet_file(const std::filesystem::path& file);
 
 /// Writes tets and features (vertices, lines, triangles) with one colour per cell, and names where the format has
 /// them. No tombstones. The file appears complete or not at all; Error(bad_input) names the path and the reason of
