@@ -1,0 +1,71 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hexfield/map/conforming_space.hpp"
+#include "hexfield/mesh/distributed.hpp"
+#include "hexfield/solve/minimise.hpp"
+#include "hexfield/solve/tet_energy.hpp"
+
+namespace hexfield {
+
+/// The tets of a mesh, dealt to the ranks, with their corner coordinates in terms of the unknowns of a
+/// conforming space that rank 0 holds: what the minimisations of the map module work on.
+///
+/// Unknowns of the distributed vectors: the real ones, numbered such that each rank owns those its tets
+/// touch first, then the integer ones, which the last rank owns.
+class MapProblem {
+ public:
+  /// `mesh` and `space` are read on rank 0 and must outlive the object there. Collective.
+  MapProblem(MPI_Comm comm, const TetMesh& mesh, const ConformingSpace& space);
+
+  MPI_Comm comm() const { return comm_; }
+  std::size_t num_tets() const { return distributed_.num_owned(); }
+  double total_volume() const { return total_volume_; }
+  double volume(std::size_t tet) const { return volumes_[tet]; }
+  const DistributedMesh& distributed() const { return distributed_; }
+  PetscInt num_reals() const { return num_reals_; }
+  PetscInt num_integers() const { return num_integers_; }
+
+  /// Adds one element per owned tet to `energy`: weights[t], frames[t] and targets[t] (identity when empty).
+  /// Coordinates on integer unknowns are constants when `fixed` holds their values.
+  void add_elements(solve::TetEnergy& energy, std::span<const double> weights, std::span<const Mat3> frames,
+                    std::span<const Mat3> targets, std::span<const double> fixed) const;
+  /// Sends one matrix per tet from rank 0 to its owner. Collective.
+  std::vector<Mat3> scatter_matrices(std::span<const Mat3> on_root) const;
+
+  /// A vector of the unknowns (without the integer ones when `reals_only`) with values from rank 0, given
+  /// in the order of the space. Collective; the caller destroys it.
+  Vec make_vector(std::span<const double> on_root, bool reals_only) const;
+  /// The values of such a vector in the order of the space, on rank 0 (empty elsewhere). With reals only,
+  /// `fixed` completes it. Collective.
+  std::vector<double> gather(Vec y, std::span<const double> fixed) const;
+  /// Distributed index of integer unknown i.
+  PetscInt integer_index(std::size_t i) const { return num_reals_ + static_cast<PetscInt>(i); }
+  /// Whether this rank owns the integer unknowns.
+  bool owns_integers() const;
+
+ private:
+  void deal_rows(const ConformingSpace& space);
+
+  MPI_Comm comm_;
+  DistributedMesh distributed_;
+  PetscInt num_reals_ = 0;
+  PetscInt num_integers_ = 0;
+  PetscInt local_reals_ = 0;
+  double total_volume_ = 0;
+  std::vector<double> volumes_;
+  std::vector<solve::GradientOperator> gradients_;
+  std::vector<PetscInt> rows_;     // 12 per owned tet: number of entries
+  std::vector<PetscInt> columns_;  // distributed numbering, integers included
+  std::vector<std::int32_t> coefficients_;
+  std::vector<std::size_t> first_;  // of each owned tet in columns_
+  std::vector<PetscInt> order_;     // rank 0: distributed number of each real unknown
+};
+
+}  // namespace hexfield
