@@ -2,19 +2,15 @@
 
 #include <petscvec.h>
 
+#include <algorithm>
 #include <numeric>
 
+#include "collective.hpp"
 #include "hexfield/base/agree.hpp"
 #include "hexfield/base/petsc.hpp"
 
 namespace hexfield {
 namespace {
-
-int rank_of(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
 
 int size_of(MPI_Comm comm) {
   int size = 1;
@@ -155,10 +151,10 @@ void MapProblem::add_elements(solve::TetEnergy& energy, std::span<const double> 
 
 std::vector<Mat3> MapProblem::scatter_matrices(std::span<const Mat3> on_root) const {
   std::vector<double> flat(9 * on_root.size());
-  for (std::size_t t = 0; t < on_root.size(); ++t) Eigen::Map<Mat3>(&flat[9 * t]) = on_root[t];
+  for (std::size_t t = 0; t < on_root.size(); ++t) std::copy_n(on_root[t].data(), 9, &flat[9 * t]);
   const std::vector<double> local = distributed_.scatter_tets(flat, 9);
   std::vector<Mat3> matrices(num_tets());
-  for (std::size_t t = 0; t < matrices.size(); ++t) matrices[t] = Eigen::Map<const Mat3>(&local[9 * t]);
+  for (std::size_t t = 0; t < matrices.size(); ++t) std::copy_n(&local[9 * t], 9, matrices[t].data());
   return matrices;
 }
 

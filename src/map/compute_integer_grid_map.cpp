@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <cmath>
+
+#include "collective.hpp"
+#include "hexfield/base/agree.hpp"
+#include "hexfield/map/compute_map.hpp"
+#include "hexfield/map/verify.hpp"
+#include "integer_map.hpp"
+#include "rounding.hpp"
+
+namespace hexfield {
+namespace {
+
+constexpr int max_tries = 4;
+constexpr int max_rescalings = 4;
+
+/// What rank 0 knows of the seamless map.
+struct Seamless {
+  Alignments alignments;
+  ConformingSpace space;
+  std::vector<double> unknowns;
+  double domain_volume = 0;
+  double map_volume = 0;
+  double hexes = 0;  // wanted
+};
+
+Seamless prepare(const TetMesh& mesh, const Features& features, const EdgeCodes& codes, const SeamlessMap& map,
+                 const IgmOptions& options) {
+  Seamless s;
+  s.alignments = alignments_of_map(mesh, features, codes, map);
+  s.space = conforming_space(mesh, cut_graph(mesh, matchings_of(map), singular_edges(codes)), s.alignments);
+  s.unknowns = unknowns_of(mesh, s.space, map);
+  s.map_volume = parametric_volume(map);
+  for (std::size_t t = 0; t < mesh.num_tets(); ++t) s.domain_volume += signed_volume6(mesh, TetId(t)) / 6;
+  s.hexes = options.edge_length > 0 ? s.domain_volume / std::pow(options.edge_length, 3) : options.target_hexes;
+  return s;
+}
+
+struct Rounded {
+  double scale = 1;
+  std::vector<double> integers;
+  double hexes = 0;  // volume of the map that follows the rounding linearly
+};
+
+std::vector<double> scaled(const std::vector<double>& y, double scale) {
+  std::vector<double> result = y;
+  for (double& value : result) value *= scale;
+  return result;
+}
+
+std::optional<Rounded> round_at(const TetMesh& mesh, const Seamless& s, double scale) {
+  std::vector<double> y = scaled(s.unknowns, scale);
+  const double edge = std::cbrt(s.domain_volume / s.map_volume) / scale;
+  const auto reals = static_cast<Eigen::Index>(s.space.num_reals);
+  const auto integers = static_cast<Eigen::Index>(s.space.num_integers);
+  const RoundingCost cost = rounding_cost(mesh, s.space, y, edge);
+  const Eigen::VectorXd w0 = Eigen::Map<const Eigen::VectorXd>(y.data() + reals, integers);
+  const auto w = round_integers(cost, w0, required_spacings(mesh, s.space, s.alignments, y));
+  if (!w) return std::nullopt;
+  Eigen::Map<Eigen::VectorXd>(y.data(), reals) += cost.following * (*w - w0);
+  Eigen::Map<Eigen::VectorXd>(y.data() + reals, integers) = *w;
+  Rounded rounded;
+  rounded.scale = scale;
+  rounded.integers.assign(w->begin(), w->end());
+  rounded.hexes = parametric_volume(to_corner_map(s.space, coordinates(s.space, y)));
+  return rounded;
+}
+
+// The rounding whose number of hexes is closest to the wanted one, over a few scales from `scale` on.
+std::optional<Rounded> round_near(const TetMesh& mesh, const Seamless& s, double scale) {
+  std::optional<Rounded> best;
+  auto miss = [&](const Rounded& r) { return r.hexes > 0 ? std::abs(std::log(r.hexes / s.hexes)) : 1e300; };
+  for (int k = 0; k < max_rescalings; ++k) {
+    const std::optional<Rounded> rounded = round_at(mesh, s, scale);
+    if (rounded && (!best || miss(*rounded) < miss(*best) - 1e-9)) best = rounded;
+    if (rounded && miss(*rounded) < 0.1) return best;
+    if (!rounded) {
+      if (best) return best;
+      scale *= 1.15;
+    } else {
+      scale *= std::clamp(rounded->hexes > 0 ? std::cbrt(s.hexes / rounded->hexes) : 1.15, 0.7, 1.3);
+    }
+  }
+  return best;
+}
+
+std::string reason_of(const IntegerOutcome& outcome, const MapReport& report) {
+  if (!outcome.reached) return "The integer coordinates that rounding chose cannot be reached without inverting a tet.";
+  if (!report.inverted.empty()) return "The integer-grid map has inverted tets.";
+  if (!report.wrong_edges.empty()) return "The integer-grid map has edges of the wrong image angle.";
+  return "The integer-grid map is not aligned.";
+}
+
+class Stage {
+ public:
+  Stage(MPI_Comm comm, const TetMesh& mesh, const Features& features, const EdgeCodes& codes, const Control& control)
+      : comm_(comm), mesh_(mesh), features_(features), codes_(codes), monitor_(control, "igm") {}
+
+  IgmResult run(const SeamlessMap& map, const IgmOptions& options) {
+    agree(comm_, [&] {
+      if (root()) seamless_ = prepare(mesh_, features_, codes_, map, options);
+    });
+    const MapProblem problem(comm_, mesh_, seamless_.space);
+    double scale = root() ? std::cbrt(seamless_.hexes / seamless_.map_volume) : 0;
+    for (int attempt = 0; attempt < max_tries; ++attempt, scale *= 1.12) {
+      bool found = false;
+      Rounded rounded;
+      agree(comm_, [&] {
+        if (!root()) return;
+        const std::optional<Rounded> best = round_near(mesh_, seamless_, scale);
+        found = best.has_value();
+        if (best) rounded = *best;
+        scale = std::max(scale, rounded.scale);
+      });
+      broadcast(comm_, found);
+      if (!found) {
+        result_.reason = "Rounding found no integers that keep all features and singular arcs apart.";
+        continue;
+      }
+      result_.quantization_valid = true;
+      if (try_integers(problem, rounded)) break;
+    }
+    result_.newton_steps = monitor_.newton_steps();
+    result_.linear_iterations = monitor_.linear_iterations();
+    return std::move(result_);
+  }
+
+ private:
+  bool root() const { return rank_of(comm_) == 0; }
+
+  bool try_integers(const MapProblem& problem, Rounded& rounded) {
+    IntegerGoal goal;
+    goal.integers = rounded.integers;
+    if (root()) {
+      goal.start = scaled(seamless_.unknowns, rounded.scale);
+      goal.edge = std::cbrt(seamless_.domain_volume / seamless_.map_volume) / rounded.scale;
+    }
+    broadcast(comm_, goal.integers);
+    broadcast(comm_, goal.edge);
+    IntegerOutcome outcome = reach_integers(problem, goal, monitor_);
+    agree(comm_, [&] {
+      if (root()) judge(outcome);
+    });
+    broadcast(comm_, result_.report);
+    broadcast(comm_, result_.reason);
+    broadcast(comm_, result_.where);
+    return result_.reason.empty();
+  }
+
+  void judge(IntegerOutcome& outcome) {
+    quantize_to_dyadic_grid(seamless_.space, outcome.unknowns);
+    result_.map = to_corner_map(seamless_.space, coordinates(seamless_.space, outcome.unknowns));
+    result_.report = verify_map(mesh_, features_, codes_, result_.map);
+    result_.where.clear();
+    result_.reason.clear();
+    for (TetId t : result_.report.inverted) result_.where.push_back(centroid(mesh_, t));
+    for (const EdgeKey& e : result_.report.wrong_edges)
+      result_.where.push_back(0.5 * (mesh_.point(e[0]) + mesh_.point(e[1])));
+    if (!outcome.reached || !result_.report.valid()) {
+      result_.reason = reason_of(outcome, result_.report);
+      return;
+    }
+    const auto violations = check_integer_grid(mesh_, features_, codes_, result_.map);
+    if (violations.empty()) return;
+    result_.reason = violations[0].sentence;
+    result_.where = violations[0].places;
+  }
+
+  MPI_Comm comm_;
+  const TetMesh& mesh_;
+  const Features& features_;
+  const EdgeCodes& codes_;
+  SolveMonitor monitor_;
+  Seamless seamless_;
+  IgmResult result_;
+};
+
+}  // namespace
+
+IgmResult compute_integer_grid_map(MPI_Comm comm, const TetMesh& mesh, const Features& features, const EdgeCodes& codes,
+                                   const SeamlessMap& seamless, const IgmOptions& options, const Control& control) {
+  return Stage(comm, mesh, features, codes, control).run(seamless, options);
+}
+
+}  // namespace hexfield

@@ -1,0 +1,104 @@
+#include "integer_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hexfield/base/petsc.hpp"
+
+namespace hexfield {
+namespace {
+
+constexpr std::array<double, 5> penalties = {1e-2, 1e-1, 1e0, 1e2, 1e4};
+
+class VecOwner {
+ public:
+  explicit VecOwner(Vec v) : v_(v) {}
+  ~VecOwner() { VecDestroy(&v_); }
+  VecOwner(const VecOwner&) = delete;
+  VecOwner& operator=(const VecOwner&) = delete;
+  Vec get() const { return v_; }
+
+ private:
+  Vec v_;
+};
+
+solve::TetEnergy dirichlet_energy(const MapProblem& problem, double edge, std::span<const double> fixed) {
+  std::vector<double> weights(problem.num_tets());
+  for (std::size_t t = 0; t < weights.size(); ++t) weights[t] = problem.volume(t) / problem.total_volume();
+  const std::vector<Mat3> frames(weights.size(), edge * Mat3::Identity());
+  solve::TetEnergy energy(solve::TetEnergy::Kind::symmetric_dirichlet);
+  problem.add_elements(energy, weights, frames, {}, fixed);
+  return energy;
+}
+
+double distance_to(const MapProblem& problem, Vec y, const std::vector<double>& integers) {
+  double distance = 0;
+  if (problem.owns_integers()) {
+    PetscInt begin = 0;
+    const PetscScalar* values = nullptr;
+    check_petsc(VecGetOwnershipRange(y, &begin, nullptr), "VecGetOwnershipRange");
+    check_petsc(VecGetArrayRead(y, &values), "VecGetArrayRead");
+    for (std::size_t i = 0; i < integers.size(); ++i)
+      distance = std::max(distance, std::abs(values[problem.integer_index(i) - begin] - integers[i]));
+    check_petsc(VecRestoreArrayRead(y, &values), "VecRestoreArrayRead");
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &distance, 1, MPI_DOUBLE, MPI_MAX, problem.comm());
+  return distance;
+}
+
+// Phase, edge, integers and unknowns in one row, for a checkpoint.
+std::vector<double> pack(int phase, const IntegerGoal& goal, const std::vector<double>& unknowns) {
+  if (unknowns.empty()) return {};
+  std::vector<double> row{static_cast<double>(phase), goal.edge};
+  row.insert(row.end(), goal.integers.begin(), goal.integers.end());
+  row.insert(row.end(), unknowns.begin(), unknowns.end());
+  return row;
+}
+
+}  // namespace
+
+int num_integer_phases() { return static_cast<int>(penalties.size()); }
+
+IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal, SolveMonitor& monitor) {
+  const MPI_Comm comm = problem.comm();
+  IntegerOutcome outcome;
+  outcome.unknowns = goal.start;
+  solve::NewtonOptions options;
+  options.preconditioner = solve::Preconditioner::cholesky;
+  if (goal.first_phase < num_integer_phases()) {
+    const VecOwner y(problem.make_vector(goal.start, false));
+    const solve::TetEnergy energy = dirichlet_energy(problem, goal.edge, {});
+    options.max_iterations = 12;
+    options.decrease_tolerance = 1e-4;
+    for (int phase = goal.first_phase; phase < num_integer_phases(); ++phase) {
+      solve::LeastSquares penalty;
+      if (problem.owns_integers())
+        for (std::size_t i = 0; i < goal.integers.size(); ++i)
+          penalty.add({{{problem.integer_index(i), 1.0}}, -goal.integers[i]},
+                      penalties[static_cast<std::size_t>(phase)]);
+      const solve::EnergyTerm* terms[] = {&energy, &penalty};
+      monitor.minimise(comm, terms, y.get(), options, "integer-grid map",
+                       [&] { return pack(phase, goal, problem.gather(y.get(), {})); });
+    }
+    outcome.distance = distance_to(problem, y.get(), goal.integers);
+    outcome.unknowns = problem.gather(y.get(), {});
+    if (outcome.distance > 1e-2) return outcome;
+    if (!outcome.unknowns.empty())
+      std::copy(goal.integers.begin(), goal.integers.end(),
+                outcome.unknowns.begin() + static_cast<std::ptrdiff_t>(problem.num_reals()));
+  }
+  const VecOwner y(problem.make_vector(outcome.unknowns, true));
+  const solve::TetEnergy energy = dirichlet_energy(problem, goal.edge, goal.integers);
+  const solve::EnergyTerm* terms[] = {&energy};
+  if (!std::isfinite(solve::evaluate(comm, terms, y.get()))) return outcome;
+  options.max_iterations = 100;
+  options.decrease_tolerance = 1e-12;
+  monitor.minimise(comm, terms, y.get(), options, "integer-grid map",
+                   [&] { return pack(num_integer_phases(), goal, problem.gather(y.get(), goal.integers)); });
+  outcome.unknowns = problem.gather(y.get(), goal.integers);
+  outcome.reached = true;
+  return outcome;
+}
+
+}  // namespace hexfield

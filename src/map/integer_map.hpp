@@ -1,0 +1,30 @@
+#pragma once
+
+#include "map_problem.hpp"
+#include "solve_monitor.hpp"
+
+namespace hexfield {
+
+/// What reach_integers() must know, the same on all ranks except `start`.
+struct IntegerGoal {
+  std::vector<double> integers;  ///< wanted values of the integer unknowns
+  std::vector<double> start;     ///< rank 0: all unknowns of an injective map
+  double edge = 1;               ///< domain length of one parameter step
+  int first_phase = 0;           ///< where to go on after a restart
+};
+
+struct IntegerOutcome {
+  std::vector<double> unknowns;  ///< rank 0: all unknowns of the last map
+  bool reached = false;          ///< the integers are exact, all tets were positive all the time
+  double distance = 0;           ///< largest distance of an integer unknown from its goal
+};
+
+/// Number of penalty phases before the integers are fixed.
+int num_integer_phases();
+
+/// Drives the integer unknowns from the start to their goals under the symmetric Dirichlet energy with a
+/// growing quadratic penalty, never through an inverted tet, then fixes them and minimises the energy alone
+/// (spec-lmff section 9, homotopy). Collective.
+IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal, SolveMonitor& monitor);
+
+}  // namespace hexfield

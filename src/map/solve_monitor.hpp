@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hexfield/base/control.hpp"
+#include "hexfield/solve/minimise.hpp"
+
+namespace hexfield {
+
+/// Joins the long solves of a stage to their listener: after every Newton step it reports progress, offers
+/// the iterate for a checkpoint and asks whether to stop. All calls are collective.
+class SolveMonitor {
+ public:
+  /// `name` is that of the iterate in checkpoints.
+  SolveMonitor(const Control& control, std::string name) : control_(control), name_(std::move(name)) {}
+
+  /// Runs minimise() with this monitor; `gather` gives the iterate of the moment on rank 0. Counts steps.
+  /// Throws Error(stopped) when the run must end, after the iterate was offered.
+  solve::NewtonResult minimise(MPI_Comm comm, std::span<const solve::EnergyTerm* const> terms, Vec y,
+                               solve::NewtonOptions options, const std::string& what,
+                               const std::function<std::vector<double>()>& gather);
+
+  int newton_steps() const { return newton_steps_; }
+  int linear_iterations() const { return linear_iterations_; }
+
+ private:
+  const Control& control_;
+  std::string name_;
+  int newton_steps_ = 0;
+  int linear_iterations_ = 0;
+};
+
+}  // namespace hexfield
