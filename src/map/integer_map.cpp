@@ -11,24 +11,9 @@ namespace {
 
 constexpr std::array<double, 5> penalties = {1e-2, 1e-1, 1e0, 1e2, 1e4};
 
-class VecOwner {
- public:
-  explicit VecOwner(Vec v) : v_(v) {}
-  ~VecOwner() { VecDestroy(&v_); }
-  VecOwner(const VecOwner&) = delete;
-  VecOwner& operator=(const VecOwner&) = delete;
-  Vec get() const { return v_; }
-
- private:
-  Vec v_;
-};
-
 solve::TetEnergy dirichlet_energy(const MapProblem& problem, double edge, std::span<const double> fixed) {
-  std::vector<double> weights(problem.num_tets());
-  for (std::size_t t = 0; t < weights.size(); ++t) weights[t] = problem.volume(t) / problem.total_volume();
-  const std::vector<Mat3> frames(weights.size(), edge * Mat3::Identity());
   solve::TetEnergy energy(solve::TetEnergy::Kind::symmetric_dirichlet);
-  problem.add_elements(energy, weights, frames, {}, fixed);
+  problem.add_elements(energy, problem.volume_weights(), problem.uniform_frames(edge), fixed);
   return energy;
 }
 

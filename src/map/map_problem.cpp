@@ -128,25 +128,30 @@ void MapProblem::deal_rows(const ConformingSpace& space) {
   }
 }
 
-void MapProblem::add_elements(solve::TetEnergy& energy, std::span<const double> weights, std::span<const Mat3> frames,
-                              std::span<const Mat3> targets, std::span<const double> fixed) const {
-  std::array<solve::AffineScalar, 12> corners;
-  for (std::size_t t = 0; t < num_tets(); ++t) {
-    std::size_t entry = first_[t];
-    for (std::size_t k = 0; k < 12; ++k) {
-      corners[k].entries.clear();
-      corners[k].constant = 0;
-      for (PetscInt i = 0; i < rows_[12 * t + k]; ++i, ++entry) {
-        const PetscInt column = columns_[entry];
-        if (column >= num_reals_ && !fixed.empty())
-          corners[k].constant += coefficients_[entry] * fixed[static_cast<std::size_t>(column - num_reals_)];
-        else
-          corners[k].entries.push_back({column, static_cast<double>(coefficients_[entry])});
-      }
+void MapProblem::corners_of(std::size_t tet, std::span<const double> fixed,
+                            std::array<solve::AffineScalar, 12>& corners) const {
+  std::size_t entry = first_[tet];
+  for (std::size_t k = 0; k < 12; ++k) {
+    corners[k].entries.clear();
+    corners[k].constant = 0;
+    for (PetscInt i = 0; i < rows_[12 * tet + k]; ++i, ++entry) {
+      const PetscInt column = columns_[entry];
+      if (column >= num_reals_ && !fixed.empty())
+        corners[k].constant += coefficients_[entry] * fixed[static_cast<std::size_t>(column - num_reals_)];
+      else
+        corners[k].entries.push_back({column, static_cast<double>(coefficients_[entry])});
     }
-    energy.add(gradients_[t], weights[t], corners, frames.empty() ? Mat3(Mat3::Identity()) : frames[t],
-               targets.empty() ? Mat3(Mat3::Identity()) : targets[t]);
   }
+}
+
+std::vector<double> MapProblem::volume_weights() const {
+  std::vector<double> weights = volumes_;
+  for (double& w : weights) w /= total_volume_;
+  return weights;
+}
+
+std::vector<Mat3> MapProblem::uniform_frames(double edge) const {
+  return std::vector<Mat3>(num_tets(), edge * Mat3::Identity());
 }
 
 std::vector<Mat3> MapProblem::scatter_matrices(std::span<const Mat3> on_root) const {

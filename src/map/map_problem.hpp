@@ -14,6 +14,19 @@
 
 namespace hexfield {
 
+/// Destroys a PETSc vector at the end of a scope.
+class VecOwner {
+ public:
+  explicit VecOwner(Vec v) : v_(v) {}
+  ~VecOwner() { VecDestroy(&v_); }
+  VecOwner(const VecOwner&) = delete;
+  VecOwner& operator=(const VecOwner&) = delete;
+  Vec get() const { return v_; }
+
+ private:
+  Vec v_;
+};
+
 /// The tets of a mesh, dealt to the ranks, with their corner coordinates in terms of the unknowns of a
 /// conforming space that rank 0 holds: what the minimisations of the map module work on.
 ///
@@ -32,10 +45,21 @@ class MapProblem {
   PetscInt num_reals() const { return num_reals_; }
   PetscInt num_integers() const { return num_integers_; }
 
-  /// Adds one element per owned tet to `energy`: weights[t], frames[t] and targets[t] (identity when empty).
+  /// Adds one element per owned tet to `energy` with weights[t] and frames[t].
   /// Coordinates on integer unknowns are constants when `fixed` holds their values.
-  void add_elements(solve::TetEnergy& energy, std::span<const double> weights, std::span<const Mat3> frames,
-                    std::span<const Mat3> targets, std::span<const double> fixed) const;
+  template <class Energy>
+  void add_elements(Energy& energy, std::span<const double> weights, std::span<const Mat3> frames,
+                    std::span<const double> fixed) const {
+    std::array<solve::AffineScalar, 12> corners;
+    for (std::size_t t = 0; t < num_tets(); ++t) {
+      corners_of(t, fixed, corners);
+      energy.add(gradients_[t], weights[t], corners, frames[t]);
+    }
+  }
+  /// Share of every owned tet in the total volume.
+  std::vector<double> volume_weights() const;
+  /// The same frame for every owned tet: `edge` times the identity.
+  std::vector<Mat3> uniform_frames(double edge) const;
   /// Sends one matrix per tet from rank 0 to its owner. Collective.
   std::vector<Mat3> scatter_matrices(std::span<const Mat3> on_root) const;
 
@@ -51,6 +75,7 @@ class MapProblem {
   bool owns_integers() const;
 
  private:
+  void corners_of(std::size_t tet, std::span<const double> fixed, std::array<solve::AffineScalar, 12>& corners) const;
   void deal_rows(const ConformingSpace& space);
 
   MPI_Comm comm_;
