@@ -1,0 +1,155 @@
+#include <cmath>
+
+#include "collective.hpp"
+#include "hexfield/base/agree.hpp"
+#include "hexfield/field/constraints.hpp"
+#include "hexfield/map/compute_map.hpp"
+#include "hexfield/map/verify.hpp"
+#include "map_problem.hpp"
+#include "solve_monitor.hpp"
+#include "untangle.hpp"
+
+namespace hexfield {
+namespace {
+
+constexpr int untangling_rounds = 30;
+
+/// A map of the conforming space and what verify_map() says of it.
+struct Candidate {
+  std::vector<double> unknowns;  // rank 0
+  MapReport report;              // all ranks
+
+  bool better_than(const Candidate& other) const {
+    return std::pair(report.inverted.size(), report.wrong_edges.size()) <
+           std::pair(other.report.inverted.size(), other.report.wrong_edges.size());
+  }
+};
+
+class Stage {
+ public:
+  Stage(MPI_Comm comm, const TetMesh& mesh, const Features& features, const FrameField& field, const EdgeCodes& codes,
+        const SeamlessOptions& options, const Control& control)
+      : comm_(comm),
+        mesh_(mesh),
+        features_(features),
+        field_(field),
+        codes_(codes),
+        options_(options),
+        control_(control),
+        monitor_(control, "seamless") {}
+
+  SeamlessResult run() {
+    agree(comm_, [&] {
+      if (root()) prepare();
+    });
+    const MapProblem problem(comm_, mesh_, space_);
+    edge_ = std::cbrt(problem.total_volume() / options_.target_hexes);
+    Candidate best = judged(fit(problem, field_frames()));
+    if (!best.report.valid()) {
+      const Candidate other =
+          judged(untangle(problem, mesh_, space_, best.unknowns, {}, edge_, untangling_rounds, monitor_));
+      if (other.better_than(best)) best = other;
+    }
+    if (best.report.inverted.empty()) {
+      const Candidate polished = judged(polish(problem, best.unknowns));
+      if (!best.better_than(polished)) best = polished;
+    }
+    return finish(best);
+  }
+
+ private:
+  bool root() const { return rank_of(comm_) == 0; }
+
+  void prepare() {
+    const Alignments alignments =
+        alignments_of_field(collect_constraints(mesh_, features_, field_, codes_), features_, codes_);
+    space_ = conforming_space(mesh_, cut_graph(mesh_, field_.matchings, singular_edges(codes_)), alignments);
+  }
+
+  // Combed frames scaled to the wanted edge length, on rank 0.
+  std::vector<Mat3> field_frames() const {
+    std::vector<Mat3> frames;
+    if (!root()) return frames;
+    for (std::size_t t = 0; t < mesh_.num_tets(); ++t)
+      frames.push_back(edge_ * (field_.frames[t].toRotationMatrix() * octahedral::matrix(space_.cut.gauges[t])));
+    return frames;
+  }
+
+  // The conforming map whose Jacobians fit the inverses of the frames best: min sum V |J F - I|^2.
+  std::vector<double> fit(const MapProblem& problem, const std::vector<Mat3>& frames) {
+    solve::TetEnergy energy(solve::TetEnergy::Kind::frame_fit);
+    problem.add_elements(energy, problem.volume_weights(), problem.scatter_matrices(frames), {});
+    const std::vector<double> zero(root() ? space_.num_unknowns() : 0, 0.0);
+    const VecOwner y(problem.make_vector(zero, false));
+    const solve::EnergyTerm* terms[] = {&energy};
+    const solve::NewtonResult result = solve::solve_linear(comm_, terms, y.get(), solve::Preconditioner::cholesky);
+    linear_iterations_ += result.linear_iterations;
+    return problem.gather(y.get(), {});
+  }
+
+  std::vector<double> polish(const MapProblem& problem, const std::vector<double>& start) {
+    solve::TetEnergy energy(solve::TetEnergy::Kind::symmetric_dirichlet);
+    problem.add_elements(energy, problem.volume_weights(), problem.uniform_frames(edge_), {});
+    const VecOwner y(problem.make_vector(start, false));
+    solve::NewtonOptions newton;
+    newton.preconditioner = solve::Preconditioner::cholesky;
+    newton.max_iterations = 60;
+    newton.decrease_tolerance = 1e-12;
+    const solve::EnergyTerm* terms[] = {&energy};
+    if (!std::isfinite(solve::evaluate(comm_, terms, y.get()))) return start;
+    monitor_.minimise(comm_, terms, y.get(), newton, "seamless map", [&] { return problem.gather(y.get(), {}); });
+    return problem.gather(y.get(), {});
+  }
+
+  Candidate judged(std::vector<double> unknowns) const {
+    Candidate candidate{std::move(unknowns), {}};
+    agree(comm_, [&] {
+      if (root()) candidate.report = verify_map(mesh_, features_, codes_, map_of(candidate.unknowns));
+    });
+    broadcast(comm_, candidate.report);
+    return candidate;
+  }
+
+  CornerMap map_of(const std::vector<double>& unknowns) const {
+    return to_corner_map(space_, coordinates(space_, unknowns));
+  }
+
+  SeamlessResult finish(Candidate& best) {
+    SeamlessResult result;
+    agree(comm_, [&] {
+      if (!root()) return;
+      const double volume = parametric_volume(map_of(best.unknowns));
+      const double scale = volume > 0 ? std::cbrt(options_.target_hexes / volume) : 1;
+      for (double& value : best.unknowns) value *= scale;
+      quantize_to_dyadic_grid(space_, best.unknowns);
+      result.map = map_of(best.unknowns);
+      result.report = verify_map(mesh_, features_, codes_, result.map);
+    });
+    broadcast(comm_, result.report);
+    result.newton_steps = monitor_.newton_steps();
+    result.linear_iterations = linear_iterations_ + monitor_.linear_iterations();
+    return result;
+  }
+
+  MPI_Comm comm_;
+  const TetMesh& mesh_;
+  const Features& features_;
+  const FrameField& field_;
+  const EdgeCodes& codes_;
+  const SeamlessOptions& options_;
+  const Control& control_;
+  SolveMonitor monitor_;
+  ConformingSpace space_;
+  double edge_ = 1;
+  int linear_iterations_ = 0;
+};
+
+}  // namespace
+
+SeamlessResult compute_seamless_map(MPI_Comm comm, const TetMesh& mesh, const Features& features,
+                                    const FrameField& field, const EdgeCodes& codes, const SeamlessOptions& options,
+                                    const Control& control) {
+  return Stage(comm, mesh, features, field, codes, options, control).run();
+}
+
+}  // namespace hexfield

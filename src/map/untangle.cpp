@@ -1,0 +1,46 @@
+#include "untangle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collective.hpp"
+#include "untangle_energy.hpp"
+
+namespace hexfield {
+
+double smallest_determinant(const TetMesh& mesh, const ConformingSpace& space, std::span<const double> y, double edge) {
+  const CornerMap map = to_corner_map(space, coordinates(space, y));
+  double smallest = 1e300;
+  for (std::size_t t = 0; t < mesh.num_tets(); ++t) {
+    const auto& f = map.uvw[t];
+    const double volume6 = (f[1] - f[0]).cross(f[2] - f[0]).dot(f[3] - f[0]);
+    smallest = std::min(smallest, volume6 / signed_volume6(mesh, TetId(t)));
+  }
+  return smallest * edge * edge * edge;
+}
+
+std::vector<double> untangle(const MapProblem& problem, const TetMesh& mesh, const ConformingSpace& space,
+                             const std::vector<double>& start, const std::vector<double>& fixed, double edge,
+                             int max_rounds, SolveMonitor& monitor) {
+  const MPI_Comm comm = problem.comm();
+  UntangleEnergy energy;
+  problem.add_elements(energy, problem.volume_weights(), problem.uniform_frames(edge), fixed);
+  const solve::EnergyTerm* terms[] = {&energy};
+  const VecOwner y(problem.make_vector(start, !fixed.empty()));
+  solve::NewtonOptions options;
+  options.preconditioner = solve::Preconditioner::cholesky;
+  options.max_iterations = 10;
+  options.decrease_tolerance = 1e-3;
+  std::vector<double> unknowns = start;
+  for (int round = 0; round < max_rounds; ++round) {
+    double smallest = rank_of(comm) == 0 ? smallest_determinant(mesh, space, unknowns, edge) : 0;
+    broadcast(comm, smallest);
+    if (smallest > 0) break;
+    energy.set_epsilon(std::sqrt(1e-8 + 0.04 * smallest * smallest));
+    monitor.minimise(comm, terms, y.get(), options, "untangling", [&] { return std::vector<double>(); });
+    unknowns = problem.gather(y.get(), fixed);
+  }
+  return unknowns;
+}
+
+}  // namespace hexfield
