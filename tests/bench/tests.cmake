@@ -1,0 +1,11 @@
+# Benchmarks, one binary bench_<module> per tests/bench/<module>_bench.cpp; never run by ctest, for they only time.
+if(HEXFIELD_BENCHMARKS)
+  foreach(module ${modules})
+    set(source ${CMAKE_CURRENT_SOURCE_DIR}/bench/${module}_bench.cpp)
+    if(EXISTS ${source})
+      add_executable(bench_${module} ${source})
+      target_include_directories(bench_${module} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+      target_link_libraries(bench_${module} PRIVATE hexfield::${module} benchmark::benchmark)
+    endif()
+  endforeach()
+endif()
