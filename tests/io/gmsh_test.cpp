@@ -25,7 +25,7 @@ TEST(Gmsh, PointsComeInTheOrderOfTheirTagsAndUnusedOnesAreDropped) {
   ASSERT_EQ(input.mesh.num_vertices(), 4u);
   EXPECT_EQ(input.mesh.points[0], Vec3(0, 0, 0));
   EXPECT_EQ(input.mesh.points[3], Vec3(0, 0, 1));
-  EXPECT_EQ(input.notes, std::vector<std::string>{"1 points that no tet uses were dropped."});
+  EXPECT_EQ(input.notes, std::vector<std::string>{"Points that no tet uses were dropped: 1."});
   EXPECT_EQ(input.features.tet_colours, std::vector<int>{9});
   EXPECT_EQ(input.features.names.at({3, 9}), "body");
   EXPECT_EQ(input.features.names.at({2, 7}), "a \"quoted\" face");
