@@ -98,10 +98,10 @@ std::vector<std::string> notes_on(const CellSoup& soup, const RawTets& raw, std:
   std::vector<std::string> notes;
   if (raw.reversed) notes.push_back("All tets were listed inverted; two vertices of each were exchanged.");
   if (kept_points < soup.points.size())
-    notes.push_back(fmt::format("{} points that no tet uses were dropped.", soup.points.size() - kept_points));
+    notes.push_back(fmt::format("Points that no tet uses were dropped: {}.", soup.points.size() - kept_points));
   std::size_t negative = 0;
   for (const CellBlock& b : soup.blocks) negative += b.negative;
-  if (negative > 0) notes.push_back(fmt::format("{} cells have negative tags, which count as no tag.", negative));
+  if (negative > 0) notes.push_back(fmt::format("Cells with negative tags, which count as no tag: {}.", negative));
   return notes;
 }
 

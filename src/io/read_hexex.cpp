@@ -49,6 +49,10 @@ void read_tets(Scanner& in, std::size_t points, std::vector<std::array<VertexId,
   uvw.resize(n);
   for (std::size_t t = 0; t < n; ++t) {
     for (VertexId& v : tets[t]) v = vertex(in, points);
+    for (std::size_t k = 0; k < 6; ++k)
+      if (tets[t][static_cast<std::size_t>(tet_edge_vertices[k][0])] ==
+          tets[t][static_cast<std::size_t>(tet_edge_vertices[k][1])])
+        in.fail(fmt::format("tet {} has a vertex twice", t));
     for (Vec3& p : uvw[t])
       for (int k = 0; k < 3; ++k) p[k] = finite(in, io::read_rational(in, "a parameter"), "a parameter");
   }

@@ -19,7 +19,7 @@ class Mutator {
 
   /// `other` gives the blocks that are spliced in.
   std::string mutated(std::string data, const std::string& other) {
-    for (std::size_t times = 1 + below(4); times > 0; --times) mutate(data, other);
+    for (std::size_t times = 1 + below(3); times > 0; --times) mutate(data, other);
     return data;
   }
 
@@ -29,8 +29,11 @@ class Mutator {
       case 0:  // bit flip
         if (!data.empty()) data[below(data.size())] ^= static_cast<char>(1U << below(8));
         break;
-      case 1:  // truncation
-        data.resize(below(data.size() + 1));
+      case 1:  // truncation, or a number in place of another where half the cuts would be
+        if (below(3) == 0)
+          data.resize(below(data.size() + 1));
+        else
+          replace_number(data, std::to_string(below(16)));
         break;
       case 2:  // another number in place of one
         replace_number(data, odd_number());

@@ -106,6 +106,26 @@ TEST(BadInput, WrongCounts) {
                  {"impossible"});
 }
 
+TEST(BadInput, ImpossibleSizesAreRefusedBeforeMemoryIsTaken) {
+  const std::string vtk = "# vtk DataFile Version 5.1\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n";
+  std::string binary = vtk;
+  binary.replace(binary.find("ASCII"), 5, "BINARY");
+  expect_refused("a.vtk", binary + "POINTS 4611686018427387904 double\n", {"impossible"});
+  expect_refused("b.vtk", binary + "POINTS 300000000000 double\n", {"more than the 0 bytes"});
+  expect_refused("c.vtk", vtk + "CELLS 2 4000000000\n4 0 1 2 3\n", {"4000000000"});
+  expect_refused("d.vtk", vtk + "CELLS 4 6\nOFFSETS vtktypeint64\n0 5 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 3 4 5\n",
+                 {"offset 2 of the cells is 3"});
+  expect_refused("e.vtk", vtk + "FIELD f 1\na 4611686018427387904 4611686018427387904 int\n", {"impossible"});
+  const std::string msh2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  expect_refused("a.msh", msh2 + "$Nodes\n99999999999\n1 0 0 0\n", {"line 5", "99999999999"});
+  expect_refused("b.msh", msh2 + "$Nodes\n0\n$EndNodes\n$Elements\n1\n1 15 999999999 1\n", {"999999999"});
+  const std::string msh4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  expect_refused("c.msh", msh4 + "$Nodes\n1 9223372036854775807 1 1\n", {"9223372036854775807"});
+  expect_refused("d.msh", msh4 + "$Entities\n99999999 0 0 0\n", {"99999999"});
+  expect_refused("a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n1000000000000\n", {"1000000000000"});
+  expect_refused("a.hexex", "999999999999\n0 0 0\n", {"999999999999"});
+}
+
 TEST(BadInput, Coordinates) {
   VtkText file;
   file.points[4] = "1 nan 1";
@@ -183,6 +203,7 @@ TEST(BadInput, HexexFiles) {
   expect_refused("fraction.hexex", with("1\n", "1/2/3\n"), {"no fraction"});
   expect_refused("nan.hexex", with("1\n", "nan\n"), {"no finite number"});
   expect_refused("range.hexex", with("0 1 2 3", "0 1 2 4"), {"line 7", "vertex 4 does not exist"});
+  expect_refused("twice.hexex", with("0 1 2 3", "0 1 2 2"), {"line 7", "tet 0 has a vertex twice"});
   expect_refused("none.hexex", points + "0\n", {"no tetrahedra"});
   expect_refused("more.hexex", points + tets + "0 0 0\n7\n", {"goes on"});
   expect_refused("edge.hexex", points + tets + "0 1 0\n1 1\n", {"feature edge 0 (1, 1)"});

@@ -25,9 +25,16 @@ TEST(Gmsh, PointsComeInTheOrderOfTheirTagsAndUnusedOnesAreDropped) {
   ASSERT_EQ(input.mesh.num_vertices(), 4u);
   EXPECT_EQ(input.mesh.points[0], Vec3(0, 0, 0));
   EXPECT_EQ(input.mesh.points[3], Vec3(0, 0, 1));
+  EXPECT_EQ(input.notes, std::vector<std::string>{"Points that no tet uses were dropped: 1."});
   EXPECT_EQ(input.features.tet_colours, std::vector<int>{9});
   EXPECT_EQ(input.features.names.at({3, 9}), "body");
   EXPECT_EQ(input.features.names.at({2, 7}), "a \"quoted\" face");
+}
+
+TEST(Gmsh, AMeshOfInvertedTetsOnlyIsTurned) {
+  const TetInput input = read_tet_mesh(write_text("turned.msh", msh22(1, "1 4 2 9 1 3 8 7 100\n")));
+  EXPECT_TRUE(check(input.mesh).empty());
+  EXPECT_EQ(input.notes.size(), 2u);
 }
 
 TEST(Gmsh, ThePhysicalTagIsTheColourAndTheElementaryOneStandsIn) {
