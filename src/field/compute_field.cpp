@@ -9,6 +9,7 @@
 #include "hexfield/field/matchings.hpp"
 #include "hexfield/field/presplit.hpp"
 #include "hexfield/field/singularity_graph.hpp"
+#include "hexfield/field/tet_polish.hpp"
 #include "hexfield/field/transfer.hpp"
 #include "hexfield/field/vertex_field.hpp"
 
@@ -87,6 +88,16 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
     split_for_features(result.mesh, result.features, {&follow, &follow_sh});
     compact(result.mesh, {&follow, &follow_sh});
     result.field.frames = tet_frames(result.mesh, sh);
+    graph = tet_graph(result.mesh);
+    constraints = tet_constraints(result.mesh, result.features);
+  });
+  // The smoothest field of the tets themselves: the vertex field loses its finest scale in the transfer.
+  smoothing.max_iterations = options.max_tet_smoothing_iterations;
+  SmoothingReport tet_report;
+  result.field.frames =
+      smooth_octahedral_field(comm, graph, constraints, &result.field.frames, smoothing, tet_report, control);
+  agree(comm, [&] {
+    if (rank != 0) return;
     compute_matchings(result.mesh, result.field);
     comb(result.mesh, result.field);
   });
