@@ -8,6 +8,8 @@
 #include "hexfield/field/edge_codes.hpp"
 #include "hexfield/field/matchings.hpp"
 #include "hexfield/field/presplit.hpp"
+#include "hexfield/field/singularity_graph.hpp"
+#include "hexfield/field/tet_polish.hpp"
 #include "hexfield/field/transfer.hpp"
 #include "hexfield/field/vertex_field.hpp"
 
@@ -22,6 +24,35 @@ std::vector<harmonics::Sh> harmonics_of(const std::vector<Quaternion>& frames) {
 
 std::vector<AxisConstraint> feature_constraints(const FieldResult& result) {
   return collect_constraints(result.mesh, result.features, result.field, {});
+}
+
+// Special edges apart from each other, so that no tet carries constraints that exclude each other.
+void isolate(FieldResult& result) {
+  FeatureAttribute features(result.features);
+  FieldAttribute field(result.field);
+  CodesAttribute codes(result.codes);
+  const std::vector<MeshAttribute*> attributes{&features, &field, &codes};
+  for (int pass = 0; pass < 4; ++pass) {
+    int splits = split_for_singularities(result.mesh, result.features, result.codes, attributes);
+    splits += split_for_features(result.mesh, result.features, attributes);
+    if (splits == 0) break;
+  }
+  compact(result.mesh, attributes);
+  comb(result.mesh, result.field);
+}
+
+// Sweeps with fixed matchings onto features and singular edges, with the signs that the codes say.
+void align_to_codes(MPI_Comm comm, FieldResult& result, const FieldOptions& options) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  const DistributedMesh distributed(comm, result.mesh);
+  AlignOptions align;
+  align.sweeps = options.alignment_sweeps;
+  std::vector<AxisConstraint> constraints;
+  agree(comm, [&] {
+    if (rank == 0) constraints = collect_constraints(result.mesh, result.features, result.field, result.codes);
+  });
+  align_field(distributed, result.field, constraints, align);
 }
 
 }  // namespace
@@ -57,6 +88,16 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
     split_for_features(result.mesh, result.features, {&follow, &follow_sh});
     compact(result.mesh, {&follow, &follow_sh});
     result.field.frames = tet_frames(result.mesh, sh);
+    graph = tet_graph(result.mesh);
+    constraints = tet_constraints(result.mesh, result.features);
+  });
+  // The smoothest field of the tets themselves: the vertex field loses its finest scale in the transfer.
+  smoothing.max_iterations = options.max_tet_smoothing_iterations;
+  SmoothingReport tet_report;
+  result.field.frames =
+      smooth_octahedral_field(comm, graph, constraints, &result.field.frames, smoothing, tet_report, control);
+  agree(comm, [&] {
+    if (rank != 0) return;
     compute_matchings(result.mesh, result.field);
     comb(result.mesh, result.field);
   });
@@ -69,7 +110,10 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
     if (rank != 0) return;
     compute_matchings(result.mesh, result.field);
     result.codes = compute_codes(result.mesh, result.features, result.field);
+    unify_codes(result.mesh, result.field, result.codes);
+    isolate(result);
   });
+  align_to_codes(comm, result, options);
   return result;
 }
 

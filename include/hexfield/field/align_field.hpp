@@ -20,7 +20,6 @@ struct AlignOptions {
 struct AlignReport {
   int sweeps = 0;
   double largest_turn = 0;  ///< radians, in the last sweep
-  double energy = 0;        ///< sum over inner faces of the squared angle (radians^2) between matched frames
   long reverted = 0;        ///< updates that the guard undid
   long misaligned = 0;      ///< tets that still miss a constraint by more than 1e-9 radians
 };
