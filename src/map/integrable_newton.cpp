@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "hexfield/base/agree.hpp"
 #include "hexfield/base/parallel.hpp"
@@ -114,7 +115,8 @@ void Newton::update_coarse_spaces() {
   iterations_when_fresh_ = 0;
 }
 
-double Newton::find_direction(IntegrableStageReport& report) {
+double Newton::find_direction(IntegrableStageReport& report, double tolerance) {
+  check_petsc(KSPSetTolerances(ksp_.get(), tolerance, 0.0, 1e30, options_.max_linear_iterations), "KSPSetTolerances");
   {
     Values rhs(rhs_.get());
     std::transform(gradient_.begin(), gradient_.end(), rhs.get().begin(), [](double g) { return -g; });
@@ -135,26 +137,44 @@ double Newton::find_direction(IntegrableStageReport& report) {
   return -slope;
 }
 
-bool Newton::search(const IntegrableStage& stage, double slope, std::vector<double>& frames, Energies& energies) {
+std::optional<Energies> Newton::try_step(const std::vector<double>& frames, std::span<const double> limits, double t,
+                                         double bound, const IntegrableStage& stage, std::vector<double>& trial) {
   Values direction(direction_.get());
   const auto d = direction.get();
-  const double before = energies.total(stage);
-  double t = std::min(1.0, 0.99 * problem_.max_step(frames, d));
-  trial_.resize(frames.size());
-  for (int i = 0; i < 40; ++i) {
-    for (std::size_t k = 0; k < frames.size(); ++k) trial_[k] = frames[k] + t * d[k];
-    const Energies e = problem_.energies(trial_);
-    const double after = e.total(stage);
-    if (after <= before + 1e-4 * t * slope) {
-      frames.swap(trial_);
-      energies = e;
-      return true;
-    }
-    const double curvature = after - before - t * slope;
-    const double best = std::isfinite(after) && curvature > 0 ? -0.5 * slope * t * t / curvature : 0.5 * t;
-    t = std::clamp(best, 0.1 * t, 0.7 * t);
+  trial.resize(frames.size());
+  for (std::size_t k = 0; k < frames.size(); ++k) trial[k] = frames[k] + std::min(t, limits[k / 9]) * d[k];
+  const Energies e = problem_.energies(trial);
+  if (!(e.total(stage) <= bound)) return std::nullopt;
+  return e;
+}
+
+bool Newton::search(const IntegrableStage& stage, double slope, std::vector<double>& frames, Energies& energies) {
+  // A step may use up this much of the way to the inversion of a tet.
+  constexpr double reach = 0.9;
+  std::vector<double> limits;
+  {
+    Values direction(direction_.get());
+    limits = problem_.step_limits(frames, direction.get());
   }
-  return false;
+  double least = std::numeric_limits<double>::infinity();
+  for (double& limit : limits) least = std::min(least, limit *= reach);
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, comm_);
+  const double before = energies.total(stage);
+  double t = std::min(1.0, least);
+  // A few tets that must not go far should not hold back the others: each tet goes as far as it can.
+  std::optional<Energies> each;
+  if (least < 1) each = try_step(frames, limits, 1.0, before + 1e-4 * t * slope, stage, clipped_);
+  std::optional<Energies> all;
+  for (int i = 0; i < 40 && !all; ++i) {
+    all = try_step(frames, limits, t, before + 1e-4 * t * slope, stage, trial_);
+    if (each) break;
+    if (!all) t *= 0.5;
+  }
+  if (!each && !all) return false;
+  const bool use_each = each && (!all || each->total(stage) < all->total(stage));
+  frames.swap(use_each ? clipped_ : trial_);
+  energies = use_each ? *each : *all;
+  return true;
 }
 
 IntegrableStageReport Newton::run(const IntegrableStage& stage, double tolerance, const Control& control,
@@ -172,9 +192,12 @@ IntegrableStageReport Newton::run(const IntegrableStage& stage, double tolerance
     problem_.linearise(frames, gradient_);
     update_blocks();
     if (stale_) update_coarse_spaces();
-    const double slope = find_direction(report);
+    double slope = find_direction(report, options_.linear_tolerance);
     const double before = energies.total(stage);
-    const bool small = !(-0.5 * slope > tolerance * before);
+    auto small_step = [&] { return !(-0.5 * slope > tolerance * before); };
+    // A nearly inverted tet can satisfy the loose test alone; look again before ending the stage.
+    if (small_step()) slope = find_direction(report, 1e-3 * options_.linear_tolerance);
+    const bool small = small_step();
     const bool moved = search(stage, slope, frames, energies);
     if (moved) ++report.newton_steps;
     if (small || !moved) break;

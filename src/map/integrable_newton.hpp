@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "hexfield/solve/petsc_handle.hpp"
@@ -25,7 +26,10 @@ class Newton {
   void update_blocks();
   void update_coarse_spaces();
   /// Returns the slope g . direction and leaves the direction in direction_.
-  double find_direction(IntegrableStageReport& report);
+  double find_direction(IntegrableStageReport& report, double tolerance);
+  /// The energies after each tet goes min(t, its limit) along direction_ (then in `trial`), when at most `bound`.
+  std::optional<Energies> try_step(const std::vector<double>& frames, std::span<const double> limits, double t,
+                                   double bound, const IntegrableStage& stage, std::vector<double>& trial);
   bool search(const IntegrableStage& stage, double slope, std::vector<double>& frames, Energies& energies);
 
   MPI_Comm comm_;
@@ -38,6 +42,7 @@ class Newton {
   std::vector<solve::Mat9> inverses_;
   std::vector<double> gradient_;
   std::vector<double> trial_;
+  std::vector<double> clipped_;
   int iterations_when_fresh_ = 0;  // of the first solve after the coarse spaces were renewed
   bool stale_ = true;
 };

@@ -279,17 +279,13 @@ void Problem::project(std::span<double> x) const {
     if (constrained_[t] != 0) project_rows(projectors_[t], at(x.data(), t));
 }
 
-double Problem::max_step(std::span<const double> frames, std::span<const double> direction) const {
-  std::vector<double> least((mesh_.num_owned() + grain - 1) / grain, infinity);
-  parallel_for(mesh_.num_owned(), grain, [&](std::size_t begin, std::size_t end) {
+std::vector<double> Problem::step_limits(std::span<const double> frames, std::span<const double> direction) const {
+  std::vector<double> limits(mesh_.num_owned());
+  parallel_for(limits.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
-      least[begin / grain] =
-          std::min(least[begin / grain], solve::first_inversion(at(frames.data(), t), at(direction.data(), t)));
+      limits[t] = solve::first_inversion(at(frames.data(), t), at(direction.data(), t));
   });
-  double step = infinity;
-  for (double s : least) step = std::min(step, s);
-  MPI_Allreduce(MPI_IN_PLACE, &step, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm());
-  return step;
+  return limits;
 }
 
 }  // namespace hexfield::integrable

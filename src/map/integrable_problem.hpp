@@ -67,8 +67,8 @@ class Problem {
   /// The symmetric Dirichlet part of H_tt, weight included.
   solve::Mat9 distortion_block(std::size_t t) const;
   void project(std::span<double> x) const;
-  /// Largest step that inverts no tet of any rank. Collective.
-  double max_step(std::span<const double> frames, std::span<const double> direction) const;
+  /// Per owned tet the largest step that does not invert it (may be infinite).
+  std::vector<double> step_limits(std::span<const double> frames, std::span<const double> direction) const;
 
  private:
   struct HalfFace {

@@ -31,6 +31,24 @@ void set_up_amg(PC pc) {
   check_petsc(PetscObjectSetOptions(reinterpret_cast<PetscObject>(pc), nullptr), "PetscObjectSetOptions");
 }
 
+void set_up_cholesky(PC pc) {
+  int size = 1;
+  MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(pc)), &size);
+  PC inner = pc;
+  if (size > 1) {
+    // MUMPS on several ranks adds in the order in which messages arrive, so equal runs would give unequal
+    // bytes. Every rank factorises the whole matrix instead.
+    check_petsc(PCSetType(pc, PCREDUNDANT), "PCSetType");
+    check_petsc(PCRedundantSetNumber(pc, size), "PCRedundantSetNumber");
+    KSP ksp = nullptr;
+    check_petsc(PCRedundantGetKSP(pc, &ksp), "PCRedundantGetKSP");
+    check_petsc(KSPSetType(ksp, KSPPREONLY), "KSPSetType");
+    check_petsc(KSPGetPC(ksp, &inner), "KSPGetPC");
+  }
+  check_petsc(PCSetType(inner, PCCHOLESKY), "PCSetType");
+  check_petsc(PCFactorSetMatSolverType(inner, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
+}
+
 }  // namespace
 
 void choose_preconditioner(PC pc, Preconditioner kind) {
@@ -39,8 +57,7 @@ void choose_preconditioner(PC pc, Preconditioner kind) {
       set_up_amg(pc);
       break;
     case Preconditioner::cholesky:
-      check_petsc(PCSetType(pc, PCCHOLESKY), "PCSetType");
-      check_petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
+      set_up_cholesky(pc);
       break;
     case Preconditioner::block_jacobi:
       check_petsc(PCSetType(pc, PCPBJACOBI), "PCSetType");

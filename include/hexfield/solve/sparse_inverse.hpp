@@ -8,7 +8,8 @@
 
 namespace hexfield::solve {
 
-/// Sets `pc` up as one of our preconditioners (BoomerAMG, MUMPS Cholesky, point blocks). Collective.
+/// Sets `pc` up as one of our preconditioners: BoomerAMG, Cholesky by MUMPS (each rank factorises the whole
+/// matrix, so that equal runs give equal bytes), point blocks. Collective.
 void choose_preconditioner(PC pc, Preconditioner kind);
 
 /// (Approximate) inverse of a symmetric positive-definite matrix that is summed from local entries, with
