@@ -1,36 +1,14 @@
 #pragma once
 
-#include <petscmat.h>
-
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "hexfield/solve/minimise.hpp"
+#include "hexfield/solve/petsc_handle.hpp"
 
 namespace hexfield::solve {
-
-/// Owns a PETSc object; D is its destroy function.
-template <class T, PetscErrorCode (*D)(T*)>
-class Handle {
- public:
-  Handle() = default;
-  ~Handle() { D(&object_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  T get() const { return object_; }
-  T* out() {
-    D(&object_);
-    return &object_;
-  }
-
- private:
-  T object_ = nullptr;
-};
-using VecHandle = Handle<Vec, VecDestroy>;
-using MatHandle = Handle<Mat, MatDestroy>;
-using ScatterHandle = Handle<VecScatter, VecScatterDestroy>;
 
 /// Evaluates sums of EnergyTerms on a distributed vector. Built once per set of terms: it finds the unknowns
 /// that this rank's elements read, the scatter that fetches them and, on the first derivatives(), the

@@ -123,46 +123,58 @@ double symmetric_dirichlet(const Mat3& jacobian) {
   return std::isfinite(value) ? value : infinity;
 }
 
-double symmetric_dirichlet(const Mat3& jacobian, Vec9& gradient, Mat9& hessian) {
+Mat3 FactoredHessian::apply(const Mat3& x) const {
+  const Mat3 inner = u.transpose() * x * v;
+  const Mat3 scaled = same.cwiseProduct(inner) + crossed.cwiseProduct(inner.transpose());
+  return u * scaled * v.transpose();
+}
+
+Mat9 FactoredHessian::matrix() const {
+  Mat9 result = Mat9::Zero();
+  std::array<Mat3, 3> outer;
+  for (int i = 0; i < 3; ++i) outer[static_cast<std::size_t>(i)] = v.col(i) * v.col(i).transpose();
+  for (int i = 0; i < 3; ++i) {
+    const Mat3 along = same(i, 0) * outer[0] + same(i, 1) * outer[1] + same(i, 2) * outer[2];
+    add_kronecker(u.col(i) * u.col(i).transpose(), along, result);
+    for (int j = 0; j < 3; ++j)
+      if (i != j)
+        add_kronecker(crossed(i, j) * u.col(i) * u.col(j).transpose(), v.col(j) * v.col(i).transpose(), result);
+  }
+  return result;
+}
+
+double symmetric_dirichlet(const Mat3& jacobian, Mat3& gradient, FactoredHessian& hessian) {
   gradient.setZero();
-  hessian.setZero();
+  hessian = {Mat3::Identity(), Mat3::Identity(), Mat3::Zero(), Mat3::Zero()};
   const double value = symmetric_dirichlet(jacobian);
   if (value == infinity) return value;
   const Svd3 s = svd(jacobian);
+  hessian.u = s.u;
+  hessian.v = s.v;
   const Vec3 inverse = s.sigma.cwiseInverse();
   const Vec3 inverse3 = inverse.cwiseProduct(inverse).cwiseProduct(inverse);
-  Mat3 g = Mat3::Zero();
-  std::array<Mat3, 3> outer_v;
   for (int i = 0; i < 3; ++i) {
-    outer_v[static_cast<std::size_t>(i)] = s.v.col(i) * s.v.col(i).transpose();
-    g += (2 * (s.sigma[i] - inverse3[i])) * s.u.col(i) * s.v.col(i).transpose();
-  }
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(gradient.data()) = g;
-
-  // In the basis u_i v_j^T: diagonal entries `same`, and `crossed` between u_i v_j^T and u_j v_i^T.
-  Mat3 same, crossed;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      if (i == j) {
-        same(i, i) = 2 + 6 * inverse[i] * inverse3[i];
-        continue;
-      }
+    gradient += (2 * (s.sigma[i] - inverse3[i])) * s.u.col(i) * s.v.col(i).transpose();
+    hessian.same(i, i) = 2 + 6 * inverse[i] * inverse3[i];
+    for (int j = 0; j < i; ++j) {
       const double a = s.sigma[i];
       const double b = s.sigma[j];
       const double scale = 2 * inverse3[i] * inverse3[j];
       const double symmetric = 2 + scale * (a * a + a * b + b * b);
       const double antisymmetric = std::max(0.0, 2 - scale * (a * a - a * b + b * b));
-      same(i, j) = 0.5 * (symmetric + antisymmetric);
-      crossed(i, j) = 0.5 * (symmetric - antisymmetric);
+      hessian.same(i, j) = hessian.same(j, i) = 0.5 * (symmetric + antisymmetric);
+      hessian.crossed(i, j) = hessian.crossed(j, i) = 0.5 * (symmetric - antisymmetric);
     }
-  for (int i = 0; i < 3; ++i) {
-    const Mat3 along = same(i, 0) * outer_v[0] + same(i, 1) * outer_v[1] + same(i, 2) * outer_v[2];
-    add_kronecker(s.u.col(i) * s.u.col(i).transpose(), along, hessian);
-    for (int j = 0; j < 3; ++j)
-      if (i != j)
-        add_kronecker(crossed(i, j) * s.u.col(i) * s.u.col(j).transpose(), s.v.col(j) * s.v.col(i).transpose(),
-                      hessian);
   }
+  return value;
+}
+
+double symmetric_dirichlet(const Mat3& jacobian, Vec9& gradient, Mat9& hessian) {
+  Mat3 g;
+  FactoredHessian h;
+  const double value = symmetric_dirichlet(jacobian, g, h);
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(gradient.data()) = g;
+  hessian = h.matrix();
   return value;
 }
 

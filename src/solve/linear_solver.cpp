@@ -4,35 +4,9 @@
 
 #include "hexfield/base/error.hpp"
 #include "hexfield/base/petsc.hpp"
+#include "hexfield/solve/sparse_inverse.hpp"
 
 namespace hexfield::solve {
-namespace {
-
-// Options of one solver only; PETSc's global database stays as it is.
-using OptionsHandle = Handle<PetscOptions, PetscOptionsDestroy>;
-
-void set_up_amg(PC pc) {
-  OptionsHandle options;
-  check_petsc(PetscOptionsCreate(options.out()), "PetscOptionsCreate");
-  const char* const settings[][2] = {
-      {"-pc_hypre_boomeramg_strong_threshold", "0.5"},
-      {"-pc_hypre_boomeramg_coarsen_type", "HMIS"},
-      {"-pc_hypre_boomeramg_interp_type", "ext+i"},
-      {"-pc_hypre_boomeramg_P_max", "4"},
-      {"-pc_hypre_boomeramg_agg_nl", "0"},
-      {"-pc_hypre_boomeramg_relax_type_all", "l1scaled-SOR/Jacobi"},
-  };
-  for (const auto& [name, value] : settings)
-    check_petsc(PetscOptionsSetValue(options.get(), name, value), "PetscOptionsSetValue");
-  check_petsc(PCSetType(pc, PCHYPRE), "PCSetType");
-  check_petsc(PCHYPRESetType(pc, "boomeramg"), "PCHYPRESetType");
-  check_petsc(PetscObjectSetOptions(reinterpret_cast<PetscObject>(pc), options.get()), "PetscObjectSetOptions");
-  check_petsc(PCSetFromOptions(pc), "PCSetFromOptions");
-  check_petsc(PetscObjectSetOptions(reinterpret_cast<PetscObject>(pc), nullptr), "PetscObjectSetOptions");
-}
-
-}  // namespace
-
 LinearSolver::LinearSolver(MPI_Comm comm, Preconditioner preconditioner, int max_iterations) : comm_(comm) {
   check_petsc(KSPCreate(comm_, &ksp_), "KSPCreate");
   check_petsc(KSPSetType(ksp_, KSPCG), "KSPSetType");
@@ -40,18 +14,7 @@ LinearSolver::LinearSolver(MPI_Comm comm, Preconditioner preconditioner, int max
   check_petsc(KSPSetTolerances(ksp_, PETSC_DEFAULT, 0.0, 1e30, max_iterations), "KSPSetTolerances");
   PC pc = nullptr;
   check_petsc(KSPGetPC(ksp_, &pc), "KSPGetPC");
-  switch (preconditioner) {
-    case Preconditioner::amg:
-      set_up_amg(pc);
-      break;
-    case Preconditioner::cholesky:
-      check_petsc(PCSetType(pc, PCCHOLESKY), "PCSetType");
-      check_petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
-      break;
-    case Preconditioner::block_jacobi:
-      check_petsc(PCSetType(pc, PCPBJACOBI), "PCSetType");
-      break;
-  }
+  choose_preconditioner(pc, preconditioner);
 }
 
 int LinearSolver::solve(Mat matrix, Vec rhs, Vec x, double relative_tolerance) {

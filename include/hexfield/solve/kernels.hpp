@@ -28,6 +28,18 @@ double symmetric_dirichlet(const Mat3& jacobian);
 /// For det J <= 0 the value is infinite and the outputs are zero.
 double symmetric_dirichlet(const Mat3& jacobian, Vec9& gradient, Mat9& hessian);
 
+/// The same Hessian in factored form, H X = U (S o X' + C o X'^T) V^T with X' = U^T X V (o: entrywise): a third
+/// of the memory of the 9x9 matrix, for matrix-free products.
+struct FactoredHessian {
+  Mat3 u, v;
+  Mat3 same;     ///< S
+  Mat3 crossed;  ///< C, zero diagonal
+  Mat3 apply(const Mat3& x) const;
+  Mat9 matrix() const;
+};
+/// Value, gradient (as a matrix) and factored positive part of the Hessian; zeros where the value is infinite.
+double symmetric_dirichlet(const Mat3& jacobian, Mat3& gradient, FactoredHessian& hessian);
+
 /// First t > 0 with det(J + t D) <= 0, infinity when there is none, 0 when det J <= 0. The result is the
 /// positive side of the root: det > 0 on all of [0, result). Spec-lmff section 8, line search.
 double first_inversion(const Mat3& jacobian, const Mat3& direction);

@@ -33,7 +33,7 @@ class EnergyTerm {
 /// How a Newton system H dy = -g is preconditioned.
 enum class Preconditioner {
   amg,           ///< smoothed-aggregation or classical multigrid on H; scalable
-  cholesky,      ///< sparse direct factorisation of H; for small systems
+  cholesky,      ///< sparse direct factorisation of H, whole on every rank; for small systems
   block_jacobi,  ///< point blocks of `block_size`
 };
 
