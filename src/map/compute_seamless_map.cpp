@@ -46,8 +46,7 @@ class Stage {
     edge_ = std::cbrt(problem.total_volume() / options_.target_hexes);
     Candidate best = judged(fit(problem, field_frames()));
     if (!best.report.valid()) {
-      const Candidate other =
-          judged(untangle(problem, mesh_, space_, best.unknowns, {}, edge_, untangling_rounds, monitor_));
+      const Candidate other = judged(untangle(problem, best.unknowns, {}, edge_, untangling_rounds, monitor_));
       if (other.better_than(best)) best = other;
     }
     if (best.report.inverted.empty()) {

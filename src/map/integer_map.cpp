@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "hexfield/base/petsc.hpp"
+#include "untangle.hpp"
 
 namespace hexfield {
 namespace {
 
-constexpr std::array<double, 5> penalties = {1e-2, 1e-1, 1e0, 1e2, 1e4};
+constexpr std::array<double, 4> penalties = {1e-2, 1e-1, 1e0, 1e2};
+constexpr int untangling_rounds = 12;
 
 solve::TetEnergy dirichlet_energy(const MapProblem& problem, double edge, std::span<const double> fixed) {
   solve::TetEnergy energy(solve::TetEnergy::Kind::symmetric_dirichlet);
@@ -41,6 +43,12 @@ std::vector<double> pack(int phase, const IntegerGoal& goal, const std::vector<d
   return row;
 }
 
+bool inside(const MapProblem& problem, std::span<const solve::EnergyTerm* const> terms,
+            const std::vector<double>& unknowns) {
+  const VecOwner y(problem.make_vector(unknowns, true));
+  return std::isfinite(solve::evaluate(problem.comm(), terms, y.get()));
+}
+
 }  // namespace
 
 int num_integer_phases() { return static_cast<int>(penalties.size()); }
@@ -68,15 +76,17 @@ IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal
     }
     outcome.distance = distance_to(problem, y.get(), goal.integers);
     outcome.unknowns = problem.gather(y.get(), {});
-    if (outcome.distance > 1e-2) return outcome;
     if (!outcome.unknowns.empty())
       std::copy(goal.integers.begin(), goal.integers.end(),
                 outcome.unknowns.begin() + static_cast<std::ptrdiff_t>(problem.num_reals()));
   }
-  const VecOwner y(problem.make_vector(outcome.unknowns, true));
   const solve::TetEnergy energy = dirichlet_energy(problem, goal.edge, goal.integers);
   const solve::EnergyTerm* terms[] = {&energy};
-  if (!std::isfinite(solve::evaluate(comm, terms, y.get()))) return outcome;
+  if (!inside(problem, terms, outcome.unknowns))
+    // The last jump inverted a few tets.
+    outcome.unknowns = untangle(problem, outcome.unknowns, goal.integers, goal.edge, untangling_rounds, monitor);
+  if (!inside(problem, terms, outcome.unknowns)) return outcome;
+  const VecOwner y(problem.make_vector(outcome.unknowns, true));
   options.max_iterations = 100;
   options.decrease_tolerance = 1e-12;
   monitor.minimise(comm, terms, y.get(), options, "integer-grid map",

@@ -59,8 +59,8 @@ std::vector<T> deal(MPI_Comm comm, MPI_Datatype type, const std::vector<std::vec
 }  // namespace
 
 MapProblem::MapProblem(MPI_Comm comm, const TetMesh& mesh, const ConformingSpace& space)
-    : comm_(comm), distributed_(comm, mesh) {
-  deal_rows(space);
+    : comm_(comm), mesh_(mesh), space_(space), distributed_(comm, mesh) {
+  deal_rows();
   const TetMesh& local = distributed_.local();
   volumes_.resize(num_tets());
   gradients_.resize(num_tets());
@@ -78,7 +78,8 @@ MapProblem::MapProblem(MPI_Comm comm, const TetMesh& mesh, const ConformingSpace
   total_volume_ = volume_sum;
 }
 
-void MapProblem::deal_rows(const ConformingSpace& space) {
+void MapProblem::deal_rows() {
+  const ConformingSpace& space = space_;
   const std::vector<std::vector<std::int64_t>> owned = gather_owned(distributed_);
   std::vector<std::vector<PetscInt>> rows(owned.size());
   std::vector<std::vector<PetscInt>> columns(owned.size());

@@ -38,6 +38,9 @@ class MapProblem {
   MapProblem(MPI_Comm comm, const TetMesh& mesh, const ConformingSpace& space);
 
   MPI_Comm comm() const { return comm_; }
+  /// The inputs; complete on rank 0 only.
+  const TetMesh& mesh() const { return mesh_; }
+  const ConformingSpace& space() const { return space_; }
   std::size_t num_tets() const { return distributed_.num_owned(); }
   double total_volume() const { return total_volume_; }
   double volume(std::size_t tet) const { return volumes_[tet]; }
@@ -76,9 +79,11 @@ class MapProblem {
 
  private:
   void corners_of(std::size_t tet, std::span<const double> fixed, std::array<solve::AffineScalar, 12>& corners) const;
-  void deal_rows(const ConformingSpace& space);
+  void deal_rows();
 
   MPI_Comm comm_;
+  const TetMesh& mesh_;
+  const ConformingSpace& space_;
   DistributedMesh distributed_;
   PetscInt num_reals_ = 0;
   PetscInt num_integers_ = 0;

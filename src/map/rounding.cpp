@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 // Equal values of different runs may differ by rounding noise; a choice between candidates must not.
 constexpr double margin = 1e-7;
-constexpr int max_dives = 400;
+constexpr int max_dives = 40;
 
 double evaluate(const LinearForm& form, const VectorXd& w) {
   double sum = 0;
@@ -24,14 +24,20 @@ double evaluate(const LinearForm& form, const VectorXd& w) {
 class Rounder {
  public:
   Rounder(const RoundingCost& cost, const VectorXd& w0, const std::vector<Spacing>& spacings)
-      : s_(cost.schur), w0_(w0), spacings_(spacings), penalty_(1e4 * std::max(s_.diagonal().maxCoeff(), 1e-300)) {}
+      : s_(cost.schur),
+        w0_(w0),
+        spacings_(spacings),
+        penalty_(1e4 * std::max(s_.diagonal().maxCoeff(), 1e-300)),
+        priority_(Eigen::VectorXi::Zero(w0.size())) {}
 
   std::optional<VectorXd> run() {
-    std::vector<char> fixed(static_cast<std::size_t>(w0_.size()), 0);
-    VectorXd w = w0_;
-    if (!dive(w, fixed)) return std::nullopt;
-    improve(w);
-    return w;
+    for (int k = 0; k < max_dives; ++k) {
+      VectorXd w = w0_;
+      if (!dive(w)) continue;
+      improve(w);
+      return w;
+    }
+    return std::nullopt;
   }
 
  private:
@@ -74,32 +80,50 @@ class Rounder {
     }
   }
 
-  bool dive(VectorXd& w, std::vector<char>& fixed) {
-    if (++dives_ > max_dives) return false;
-    relax(w, fixed);
-    if (!feasible(w, 0.01)) return false;
+  // Free variable to round next: those that made earlier dives fail first, then the closest to an integer.
+  Index choose(const VectorXd& w, const std::vector<char>& fixed) const {
     Index next = -1;
     double best = 1;
     for (Index k = 0; k < w.size(); ++k) {
       if (fixed[static_cast<std::size_t>(k)] != 0) continue;
       const double distance = std::abs(w[k] - std::nearbyint(w[k]));
-      if (next < 0 || distance < best - margin) next = k, best = distance;
+      const int lead = next < 0 ? 1 : priority_[k] - priority_[next];
+      if (lead > 0 || (lead == 0 && distance < best - margin)) next = k, best = distance;
     }
-    if (next < 0) return feasible(w, 1e-9);
-    const double value = w[next];
-    double nearest = std::floor(value + 0.5 + margin);
-    const double other = nearest > value ? nearest - 1 : nearest + 1;
-    fixed[static_cast<std::size_t>(next)] = 1;
-    for (double choice : {nearest, other}) {
-      VectorXd trial = w;
-      trial[next] = choice;
-      if (dive(trial, fixed)) {
-        w = trial;
-        return true;
+    return next;
+  }
+
+  // Rounds one variable after the other; false when one fits neither way, whose rivals then gain priority.
+  bool dive(VectorXd& w) {
+    std::vector<char> fixed(static_cast<std::size_t>(w.size()), 0);
+    relax(w, fixed);
+    for (Index k = choose(w, fixed); k >= 0; k = choose(w, fixed)) {
+      fixed[static_cast<std::size_t>(k)] = 1;
+      const double nearest = std::floor(w[k] + 0.5 + margin);
+      const double other = nearest > w[k] ? nearest - 1 : nearest + 1;
+      bool fits = false;
+      for (double choice : {nearest, other}) {
+        VectorXd trial = w;
+        trial[k] = choice;
+        relax(trial, fixed);
+        fits = feasible(trial, 0.01);
+        if (fits) {
+          w = trial;
+          break;
+        }
+        blame(trial);
+      }
+      if (!fits) {
+        ++priority_[k];
+        return false;
       }
     }
-    fixed[static_cast<std::size_t>(next)] = 0;
-    return false;
+    return feasible(w, 1e-9);
+  }
+  void blame(const VectorXd& w) {
+    for (const Spacing& s : spacings_)
+      if (evaluate(s.form, w) < 0.99)
+        for (const auto& entry : s.form) ++priority_[entry.first];
   }
 
   bool try_step(VectorXd& w, const VectorXd& step) const {
@@ -132,7 +156,7 @@ class Rounder {
   const VectorXd& w0_;
   const std::vector<Spacing>& spacings_;
   double penalty_;
-  int dives_ = 0;
+  Eigen::VectorXi priority_;
 };
 
 }  // namespace

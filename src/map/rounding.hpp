@@ -21,8 +21,9 @@ struct RoundingCost {
 RoundingCost rounding_cost(const TetMesh& mesh, const ConformingSpace& space, std::span<const double> y, double edge);
 
 /// Integers near w0 of low cost that keep every spacing at 1 or more: relaxed solutions are rounded one
-/// variable after the other, the closest first, each time with a re-solve (CubeCover), with limited
-/// backtracking; then single and paired unit steps while they lower the cost. nullopt when none was found.
+/// variable after the other, the closest first, each time with a re-solve (CubeCover); where one fits
+/// neither way, those that conflict are rounded earlier in the next dive; then single and paired unit steps while they
+/// lower the cost. nullopt when none was found.
 std::optional<Eigen::VectorXd> round_integers(const RoundingCost& cost, const Eigen::VectorXd& w0,
                                               const std::vector<Spacing>& spacings);
 

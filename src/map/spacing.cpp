@@ -18,6 +18,14 @@ constexpr int max_steps = 20000;
 // Longer ones cannot collapse by rounding, which moves a coordinate by one or two.
 constexpr double max_length = 6;
 
+/// Where a ray starts: the form of its coordinate on the travel axis, the axis of the edge that it stands
+/// for (-1 for none) and half the length of this edge.
+struct Source {
+  LinearForm form;
+  int along = -1;
+  double reach = 0;
+};
+
 class Tracer {
  public:
   Tracer(const TetMesh& mesh, const ConformingSpace& space, const Alignments& alignments, std::span<const double> y)
@@ -50,29 +58,29 @@ class Tracer {
 
   /// Follows the axis `direction` from point p in tet t (not back through `from`), whose coordinate on that
   /// axis has the form `start`, and adds what it finds.
-  void trace(TetId t, int from, Vec3 p, Label direction, const LinearForm& start, const EdgeKey* source,
-             std::vector<Spacing>& found) const {
+  void trace(TetId t, int from, Vec3 p, Label direction, Source source, std::vector<Spacing>& found) const {
     // Coordinate on the start axis = sign * coordinate on the current axis + offset.
     LinearForm offset;
     int sign = 1;
     double offset_value = 0;
     const double start_value = p[octahedral::axis(direction)];
     const int start_sign = (direction & 1) != 0 ? -1 : 1;
-    auto add_found = [&](TetId at_tet, VertexId v, int axis) {
+    // `aside`: by how much the ray passes it.
+    auto add_found = [&](TetId at_tet, VertexId v, int axis, double aside) {
       const double length = start_sign * (sign * at(at_tet, v)[axis] + offset_value - start_value);
-      if (length < 1e-6) return;
-      LinearForm f = hexfield::add(hexfield::add(offset, sign, form(at_tet, v, axis)), -1, start);
+      if (length < 1e-6 || length < aside) return;
+      LinearForm f = hexfield::add(hexfield::add(offset, sign, form(at_tet, v, axis)), -1, source.form);
       if (f.empty()) return;
       found.push_back({scaled(f, start_sign), length, v});
     };
     for (int step = 0; step < max_steps; ++step) {
       const int axis = octahedral::axis(direction);
-      if (step > 0) pass_arcs(t, p, axis, source, add_found);
+      pass_arcs(t, p, axis, source, add_found);
       const int exit = leave(t, from, p, direction);
       if (exit < 0) return;
       if (std::abs(sign * p[axis] + offset_value - start_value) > max_length) return;
       const HalfFaceId h(t, exit);
-      if (aligned_axis(h) == axis) return add_found(t, mesh_.face_vertices(h)[0], axis);
+      if (aligned_axis(h) == axis) return add_found(t, mesh_.face_vertices(h)[0], axis, 0);
       const HalfFaceId o = mesh_.opposite_half_face(h);
       if (!o.valid()) return;
       if (space_.cut.patch(h) != 0) {
@@ -88,6 +96,8 @@ class Tracer {
         sign *= turn;
         p = octahedral::apply(r, p) + shift;
         direction = octahedral::image(r, direction);
+        if (source.along >= 0)
+          source.along = octahedral::axis(octahedral::image(r, static_cast<Label>(2 * source.along)));
       }
       t = o.tet();
       from = o.local();
@@ -123,15 +133,19 @@ class Tracer {
 
   // Arcs at tet t whose coordinate on `axis` is integer and that the ray at p passes closely.
   template <class F>
-  void pass_arcs(TetId t, const Vec3& p, int axis, const EdgeKey* source, const F& add_found) const {
+  void pass_arcs(TetId t, const Vec3& p, int axis, const Source& source, const F& add_found) const {
     for (const auto& [edge, along] : special_[t.index()]) {
-      if (along == axis || (source != nullptr && edge == *source)) continue;
+      if (along == axis) continue;
       const int side = 3 - axis - along;
       const Vec3& a = at(t, edge[0]);
       const Vec3& b = at(t, edge[1]);
-      if (std::abs(a[side] - p[side]) > 0.5) continue;
-      if (std::min(a[along], b[along]) - 0.5 > p[along] || std::max(a[along], b[along]) + 0.5 < p[along]) continue;
-      add_found(t, edge[0], axis);
+      // Along its own edge the source meets everything within its length.
+      const double margin = source.along == along ? source.reach : 0.25;
+      if (std::min(a[along], b[along]) - margin > p[along] || std::max(a[along], b[along]) + margin < p[along])
+        continue;
+      const double aside = std::abs(a[side] - p[side]);
+      if (source.along == side ? aside > source.reach : aside > 1) continue;
+      add_found(t, edge[0], axis, source.along == side ? 0 : aside);
     }
   }
 
@@ -155,33 +169,53 @@ void trace_from_faces(const Tracer& tracer, const Alignments& alignments, std::v
     const Vec3 p = (tracer.at(t, v[0]) + tracer.at(t, v[1]) + tracer.at(t, v[2])) / 3;
     const VertexId apex = mesh.vertices(t)[static_cast<std::size_t>(a.face.local())];
     const bool down = tracer.at(t, apex)[axis] < p[axis];
-    tracer.trace(t, a.face.local(), p, static_cast<Label>(2 * axis + (down ? 1 : 0)), tracer.form(t, v[0], axis),
-                 nullptr, found);
+    tracer.trace(t, a.face.local(), p, static_cast<Label>(2 * axis + (down ? 1 : 0)), {tracer.form(t, v[0], axis)},
+                 found);
   }
+}
+
+// Whether one moves from p into tet t in direction d: p lies on the faces that hold all of `on`.
+bool points_inside(const Tracer& tracer, TetId t, std::span<const VertexId> on, const Vec3& d, double tolerance) {
+  const TetMesh& mesh = tracer.mesh();
+  for (int f = 0; f < 4; ++f) {
+    const VertexId opposite = mesh.vertices(t)[static_cast<std::size_t>(f)];
+    if (std::find(on.begin(), on.end(), opposite) != on.end()) continue;
+    const auto v = mesh.face_vertices(HalfFaceId(t, f));
+    const Vec3 n = (tracer.at(t, v[1]) - tracer.at(t, v[0])).cross(tracer.at(t, v[2]) - tracer.at(t, v[0]));
+    if (n.dot(d) > tolerance * n.norm()) return false;
+  }
+  return true;
 }
 
 // From the middle of each special edge into every tet around it, along the axes inside the tet.
 void trace_from_edges(const Tracer& tracer, const Alignments& alignments, std::vector<Spacing>& found) {
-  const TetMesh& mesh = tracer.mesh();
   for (const EdgeAlignment& e : alignments.edges) {
     const TetId t = e.tet;
     const int along = tracer.combed(t, e.axis);
-    const Vec3 p = 0.5 * (tracer.at(t, e.edge[0]) + tracer.at(t, e.edge[1]));
+    const Vec3& a = tracer.at(t, e.edge[0]);
+    const Vec3& b = tracer.at(t, e.edge[1]);
     for (Label direction = 0; direction < 6; ++direction) {
       const int axis = octahedral::axis(direction);
-      if (axis == along) continue;
-      const Vec3 d = octahedral::direction(direction);
-      // Inside the wedge: strictly on the inner side of both faces at the edge.
-      bool inside = true;
-      for (int f = 0; f < 4; ++f) {
-        const auto v = mesh.face_vertices(HalfFaceId(t, f));
-        if (std::count(v.begin(), v.end(), e.edge[0]) == 0 || std::count(v.begin(), v.end(), e.edge[1]) == 0) continue;
-        const Vec3 n = (tracer.at(t, v[1]) - tracer.at(t, v[0])).cross(tracer.at(t, v[2]) - tracer.at(t, v[0]));
-        inside = inside && n.dot(d) < -1e-9 * n.norm();
-      }
-      if (inside) tracer.trace(t, -1, p, direction, tracer.form(t, e.edge[0], axis), &e.edge, found);
+      if (axis == along || !points_inside(tracer, t, e.edge, octahedral::direction(direction), 1e-9)) continue;
+      const double reach = 0.5 * std::abs(b[along] - a[along]) + 1e-6;
+      tracer.trace(t, -1, 0.5 * (a + b), direction, {tracer.form(t, e.edge[0], axis), along, reach}, found);
     }
   }
+}
+
+// From points where all coordinates are integer, along all axes.
+void trace_from_points(const Tracer& tracer, const Alignments& alignments, std::vector<Spacing>& found) {
+  const TetMesh& mesh = tracer.mesh();
+  std::set<VertexId> points(alignments.points.begin(), alignments.points.end());
+  for (const EdgeAlignment& e : alignments.edges)
+    for (VertexId v : e.edge)
+      if (tracer.integral(e.tet, v, tracer.combed(e.tet, e.axis))) points.insert(v);
+  for (VertexId v : points)
+    for (TetId t : vertex_star(mesh, v))
+      for (Label direction = 0; direction < 6; ++direction) {
+        if (!points_inside(tracer, t, {&v, 1}, octahedral::direction(direction), 1e-9)) continue;
+        tracer.trace(t, -1, tracer.at(t, v), direction, {tracer.form(t, v, octahedral::axis(direction))}, found);
+      }
 }
 
 // Chains of special edges between points where all coordinates are integer.
@@ -235,6 +269,7 @@ std::vector<Spacing> required_spacings(const TetMesh& mesh, const ConformingSpac
   walk_links(tracer, alignments, found);
   trace_from_faces(tracer, alignments, found);
   trace_from_edges(tracer, alignments, found);
+  trace_from_points(tracer, alignments, found);
   std::vector<Spacing> distinct;
   std::set<LinearForm> seen;
   const auto first = static_cast<std::int32_t>(space.num_reals);

@@ -19,9 +19,8 @@ double smallest_determinant(const TetMesh& mesh, const ConformingSpace& space, s
   return smallest * edge * edge * edge;
 }
 
-std::vector<double> untangle(const MapProblem& problem, const TetMesh& mesh, const ConformingSpace& space,
-                             const std::vector<double>& start, const std::vector<double>& fixed, double edge,
-                             int max_rounds, SolveMonitor& monitor) {
+std::vector<double> untangle(const MapProblem& problem, const std::vector<double>& start,
+                             const std::vector<double>& fixed, double edge, int max_rounds, SolveMonitor& monitor) {
   const MPI_Comm comm = problem.comm();
   UntangleEnergy energy;
   problem.add_elements(energy, problem.volume_weights(), problem.uniform_frames(edge), fixed);
@@ -33,7 +32,7 @@ std::vector<double> untangle(const MapProblem& problem, const TetMesh& mesh, con
   options.decrease_tolerance = 1e-3;
   std::vector<double> unknowns = start;
   for (int round = 0; round < max_rounds; ++round) {
-    double smallest = rank_of(comm) == 0 ? smallest_determinant(mesh, space, unknowns, edge) : 0;
+    double smallest = rank_of(comm) == 0 ? smallest_determinant(problem.mesh(), problem.space(), unknowns, edge) : 0;
     broadcast(comm, smallest);
     if (smallest > 0) break;
     energy.set_epsilon(std::sqrt(1e-8 + 0.04 * smallest * smallest));
