@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <map>
 #include <set>
+#include <span>
 #include <system_error>
 
 #include "hexfield/base/error.hpp"
@@ -128,13 +126,7 @@ void write_results(const RunState& state, bool failed) {
 }
 
 void write_text(const fs::path& file, const std::string& text) {
-  write_whole_file(file, [&](const fs::path& fresh) {
-    std::ofstream stream(fresh, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream)
-      throw Error(ExitCode::bad_input, fmt::format("Cannot write {}: {}.", file.string(), std::strerror(errno)));
-  });
+  write_whole_file(file, [&](const fs::path& fresh) { write_bytes(fresh, std::as_bytes(std::span(text))); });
 }
 
 }  // namespace hexfield

@@ -129,7 +129,7 @@ Stage extract_stage() {
   stage.pack = [](const RunState& state) { return pack(state.hexes); };
   stage.unpack = [](RunState& state, const NamedArrays& arrays) { state.hexes = unpack_hex_mesh(arrays); };
   // Extraction may give hexes that only smoothing makes positive: the verdict comes after stage 8.
-  stage.judge = [](RunState&) {};
+  stage.judge = describe_hexes;
   stage.check = no_violations;
   return stage;
 }
