@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "hexfield/hex/check.hpp"
@@ -72,11 +73,17 @@ ExitCode check_command(const CheckLine& line) {
     if (looks_like_checkpoint(line.file)) {
       return verdict(check_checkpoint(Checkpoint::open(line.file)), ExitCode::bad_input);
     }
-    const auto mesh = read_any_mesh(line.file);
-    if (const auto* hexes = std::get_if<HexMesh>(&mesh)) {
-      return verdict(check_hexes(*hexes, line.against), ExitCode::bad_hex_mesh);
+    std::optional<HexMesh> hexes;
+    std::vector<Violation> defects;
+    try {
+      defects = check_tet_file(line.file);
+    } catch (const Error&) {
+      // No tet mesh at all: what read_any_mesh() says of it holds.
+      const auto mesh = read_any_mesh(line.file);
+      if (std::holds_alternative<HexMesh>(mesh)) hexes = std::get<HexMesh>(mesh);
     }
-    return verdict(print_all(check(std::get<TetInput>(mesh).mesh)), ExitCode::bad_input);
+    if (hexes) return verdict(check_hexes(*hexes, line.against), ExitCode::bad_hex_mesh);
+    return verdict(print_all(defects), ExitCode::bad_input);
   });
 }
 

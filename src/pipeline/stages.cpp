@@ -37,6 +37,7 @@ Stage read_stage() {
     state.team.on_root([&] {
       progress.report("reading " + state.options.input.string(), -1);
       state.input = read_tet_mesh(state.options.input);
+      for (const std::string& note : state.input.notes) state.log.warning(note);
       complete_features(state.input.mesh, state.input.features, state.options.feature_angle);
     });
   };
