@@ -8,7 +8,8 @@
 #include "hexfield/hex/check.hpp"
 #include "hexfield/io/checkpoint.hpp"
 #include "hexfield/io/checkpoint_values.hpp"
-#include "read_any.hpp"
+#include "hexfield/io/hex_io.hpp"
+#include "hexfield/io/tet_io.hpp"
 
 namespace hexfield::apps {
 namespace {
@@ -68,22 +69,25 @@ ExitCode verdict(std::size_t defects, ExitCode bad) {
   return defects == 0 ? ExitCode::success : bad;
 }
 
+/// The hex mesh of a file; nothing when it holds no hexes or cannot be read as such.
+std::optional<HexMesh> as_hex_mesh(const std::string& file) {
+  try {
+    HexMesh mesh = read_hex_mesh(file);
+    if (!mesh.hexes.empty()) return mesh;
+  } catch (const Error&) {
+    // The check as a tet mesh tells what is wrong with it.
+  }
+  return std::nullopt;
+}
+
 ExitCode check_command(const CheckLine& line) {
   return on_rank_zero([&] {
     if (looks_like_checkpoint(line.file)) {
       return verdict(check_checkpoint(Checkpoint::open(line.file)), ExitCode::bad_input);
     }
-    std::optional<HexMesh> hexes;
-    std::vector<Violation> defects;
-    try {
-      defects = check_tet_file(line.file);
-    } catch (const Error&) {
-      // No tet mesh at all: what read_any_mesh() says of it holds.
-      const auto mesh = read_any_mesh(line.file);
-      if (std::holds_alternative<HexMesh>(mesh)) hexes = std::get<HexMesh>(mesh);
-    }
-    if (hexes) return verdict(check_hexes(*hexes, line.against), ExitCode::bad_hex_mesh);
-    return verdict(print_all(defects), ExitCode::bad_input);
+    if (const auto hexes = as_hex_mesh(line.file))
+      return verdict(check_hexes(*hexes, line.against), ExitCode::bad_hex_mesh);
+    return verdict(print_all(check_tet_file(line.file)), ExitCode::bad_input);
   });
 }
 
