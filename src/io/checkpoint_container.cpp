@@ -26,14 +26,11 @@ std::string user_block(std::uint64_t bytes, const std::string& digest) {
   return block;
 }
 
-void write_user_block(const fs::path& file) {
-  const std::string digest = sha256_of_file(file, hdf5::user_block_size);
-  const std::string block = user_block(fs::file_size(file), digest);
-  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-  stream.write(block.data(), static_cast<std::streamsize>(block.size()));
-  stream.flush();
-  if (!stream)
-    throw Error(ExitCode::bad_input, fmt::format("Cannot write {}: {}.", file.string(), std::strerror(errno)));
+void write_user_block(std::span<std::byte> image) {
+  Sha256 hash;
+  hash.add(image.subspan(hdf5::user_block_size));
+  const std::string block = user_block(image.size(), hash.finish());
+  std::memcpy(image.data(), block.data(), block.size());
 }
 
 std::string first_bytes(const fs::path& file) {
@@ -61,12 +58,11 @@ bool looks_like_checkpoint(const fs::path& file) {
 }
 
 void write_container(const fs::path& file, const std::function<void(hdf5::File&)>& fill) {
-  write_whole_file(file, [&](const fs::path& fresh) {
-    hdf5::File made = hdf5::File::create(fresh);
-    fill(made);
-    made.close();
-    write_user_block(fresh);
-  });
+  hdf5::File made = hdf5::File::create(file);
+  fill(made);
+  const std::span<std::byte> image = made.image();
+  write_user_block(image);
+  write_whole_file(file, [&](const fs::path& fresh) { write_bytes(fresh, image); });
 }
 
 hdf5::File open_container(const fs::path& file) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
-#include <cerrno>
 #include <cstring>
 #include <mutex>
 #include <utility>
@@ -30,13 +29,10 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// HDF5 reports to us only; and it does not try again at exit to write what a full disk refused.
+/// HDF5 reports to us only.
 void quiet() {
   static std::once_flag once;
-  std::call_once(once, [] {
-    H5dont_atexit();
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  });
+  std::call_once(once, [] { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); });
 }
 
 hid_t memory_type(ElementType type) {
@@ -98,9 +94,10 @@ File File::create(const std::filesystem::path& path) {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_userblock(creation, user_block_size);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V110);
-  errno = 0;
+  constexpr std::size_t growth = std::size_t{16} << 20;
+  H5Pset_fapl_core(access, growth, false);
   File file(path, H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access));
-  if (file.id_ < 0) file.fail(fmt::format("cannot be created: {}", std::strerror(errno)));
+  if (file.id_ < 0) file.fail("cannot be made in memory");
   return file;
 }
 
@@ -117,15 +114,20 @@ File::~File() {
   if (id_ >= 0) H5Fclose(id_);
 }
 
-void File::close() {
-  const bool flushed = H5Fflush(id_, H5F_SCOPE_GLOBAL) >= 0;
-  const bool closed = H5Fclose(std::exchange(id_, -1)) >= 0;
-  if (!flushed || !closed) fail("cannot be written; is the disk full?");
+std::span<std::byte> File::image() {
+  hsize_t size = 0;
+  void* handle = nullptr;
+  if (H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0 || H5Fget_filesize(id_, &size) < 0 ||
+      H5Fget_vfd_handle(id_, H5P_DEFAULT, &handle) < 0 || handle == nullptr) {
+    fail("cannot be made in memory");
+  }
+  // The handle of the memory driver is the address of its pointer to the bytes.
+  return {*static_cast<std::byte**>(handle), static_cast<std::size_t>(size)};
 }
 
 void File::make_group(const std::string& group) {
   Handle made(H5Gcreate2(id_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-  if (made < 0) fail("cannot be written; is the disk full?");
+  if (made < 0) fail("cannot be made in memory");
 }
 
 std::vector<std::string> File::groups() const { return links(id_); }
@@ -142,7 +144,7 @@ void File::set_text(const std::string& group, const std::string& attribute, cons
   Handle made(
       H5Acreate_by_name(id_, group.c_str(), attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
       H5Aclose);
-  if (made < 0 || H5Awrite(made, type, text.c_str()) < 0) fail("cannot be written; is the disk full?");
+  if (made < 0 || H5Awrite(made, type, text.c_str()) < 0) fail("cannot be made in memory");
 }
 
 std::string File::get_text(const std::string& group, const std::string& attribute) const {
@@ -168,7 +170,7 @@ void File::write(const std::string& group, const std::string& name, const NamedA
   const bool empty = array.rows == 0;
   if (dataset < 0 ||
       (!empty && H5Dwrite(dataset, memory_type(array.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, array.data) < 0)) {
-    fail("cannot be written; is the disk full?");
+    fail("cannot be made in memory");
   }
 }
 
@@ -198,7 +200,7 @@ NamedArrays File::read(const std::string& group) const {
 
 void File::copy_group(const File& from, const std::string& group) {
   if (H5Ocopy(from.id_, group.c_str(), id_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
-    fail(fmt::format("cannot take over the stage '{}'; is the disk full?", group));
+    fail(fmt::format("cannot take over the stage '{}'", group));
   }
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,8 @@ inline constexpr std::uint64_t user_block_size = 512;
 /// Error(bad_input) that names the file. HDF5 handles stay inside.
 class File {
  public:
+  /// A new file in memory: HDF5 cannot go on after a write to the disk that failed, so the disk is left to us.
+  /// `path` is for sentences only.
   static File create(const std::filesystem::path& path);
   static File open(const std::filesystem::path& path);
   File(File&& other) noexcept;
@@ -31,8 +35,8 @@ class File {
   NamedArrays read(const std::string& group) const;
   /// Copies a group of another file with all it holds.
   void copy_group(const File& from, const std::string& group);
-  /// Flushes and closes; the destructor only closes.
-  void close();
+  /// All bytes of a file in memory, user block included; valid until the next call.
+  std::span<std::byte> image();
 
  private:
   File(std::filesystem::path path, std::int64_t id) : path_(std::move(path)), id_(id) {}

@@ -43,6 +43,22 @@ void flush_to_disk(const fs::path& file) {
   if (failed != 0 && failed != EINVAL) throw cannot("write", file, std::strerror(failed));
 }
 
+void write_bytes(const fs::path& file, std::span<const std::byte> bytes) {
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) throw cannot("write", file, std::strerror(errno));
+  int failed = 0;
+  while (!bytes.empty() && failed == 0) {
+    const ssize_t taken = write(descriptor, bytes.data(), bytes.size());
+    if (taken > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(taken));
+    } else if (taken == 0 || errno != EINTR) {
+      failed = taken == 0 ? ENOSPC : errno;
+    }
+  }
+  if (close(descriptor) != 0 && failed == 0) failed = errno;
+  if (failed != 0) throw cannot("write", file, std::strerror(failed));
+}
+
 void write_whole_file(const fs::path& file, const std::function<void(const fs::path&)>& write) {
   const fs::path directory = parent_of(file);
   const Scratch scratch(directory / fmt::format(".{}.writing", file.filename().string()));

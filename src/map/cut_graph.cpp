@@ -58,7 +58,7 @@ void set_rotations(const TetMesh& mesh, const Matchings& matchings, CutGraph& cu
 }
 
 // Around such an edge the only transition is that of its one cut face, thus the identity: that face is no cut.
-void peel(const TetMesh& mesh, const EdgeTable& edges, const std::set<EdgeKey>& singular, CutGraph& cut) {
+void peel(const TetMesh& mesh, const MapEdges& edges, const std::set<EdgeKey>& singular, CutGraph& cut) {
   std::vector<std::pair<std::size_t, HalfFaceId>> incidence;
   for (std::size_t i = 0; i < mesh.num_tets(); ++i)
     for (int f = 0; f < 4; ++f) {
@@ -195,7 +195,7 @@ CutGraph cut_graph(const TetMesh& mesh, const Matchings& matchings, const std::s
   CutGraph cut;
   comb(mesh, matchings, cut);
   set_rotations(mesh, matchings, cut);
-  peel(mesh, EdgeTable(mesh), singular, cut);
+  peel(mesh, MapEdges(mesh), singular, cut);
   flood_patches(mesh, singular, cut);
   make_classes(mesh, cut);
   return cut;

@@ -4,7 +4,7 @@
 
 namespace hexfield {
 
-EdgeTable::EdgeTable(const TetMesh& mesh) {
+MapEdges::MapEdges(const TetMesh& mesh) {
   struct Entry {
     EdgeKey key;
     TetId tet;
@@ -33,12 +33,12 @@ EdgeTable::EdgeTable(const TetMesh& mesh) {
     }
 }
 
-std::size_t EdgeTable::find(const EdgeKey& wanted) const {
+std::size_t MapEdges::find(const EdgeKey& wanted) const {
   const auto place = std::lower_bound(edges_.begin(), edges_.end(), wanted);
   if (place == edges_.end() || *place != wanted) return edges_.size();
   return static_cast<std::size_t>(place - edges_.begin());
 }
 
-std::size_t EdgeTable::id(VertexId a, VertexId b) const { return find(edge_key(a, b)); }
+std::size_t MapEdges::id(VertexId a, VertexId b) const { return find(edge_key(a, b)); }
 
 }  // namespace hexfield

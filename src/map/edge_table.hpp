@@ -7,9 +7,9 @@
 namespace hexfield {
 
 /// The edges of a mesh, sorted; an edge id is its place in the table.
-class EdgeTable {
+class MapEdges {
  public:
-  explicit EdgeTable(const TetMesh& mesh);
+  explicit MapEdges(const TetMesh& mesh);
 
   std::size_t size() const { return edges_.size(); }
   const EdgeKey& key(std::size_t e) const { return edges_[e]; }

@@ -35,7 +35,7 @@ struct EdgeAngles {
   std::vector<char> doubtful;  // at an inverted tet
 };
 
-EdgeAngles edge_angles(const TetMesh& mesh, const CornerMap& map, const EdgeTable& edges,
+EdgeAngles edge_angles(const TetMesh& mesh, const CornerMap& map, const MapEdges& edges,
                        const std::vector<char>& inverted) {
   EdgeAngles angles{std::vector<double>(edges.size(), 0), std::vector<char>(edges.size(), 0)};
   for (std::size_t i = 0; i < mesh.num_tets(); ++i)
@@ -98,7 +98,7 @@ MapReport verify_map(const TetMesh& mesh, const Features& features, const EdgeCo
   const std::vector<char> inverted = inverted_tets(map);
   for (std::size_t i = 0; i < inverted.size(); ++i)
     if (inverted[i] != 0) report.inverted.push_back(TetId(i));
-  const EdgeTable edges(mesh);
+  const MapEdges edges(mesh);
   const EdgeAngles angles = edge_angles(mesh, map, edges, inverted);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto code = codes.find(edges.key(e));
@@ -118,7 +118,7 @@ MapReport verify_map(const TetMesh& mesh, const Features& features, const EdgeCo
 }
 
 EdgeCodes codes_of_map(const TetMesh& mesh, const CornerMap& map) {
-  const EdgeTable edges(mesh);
+  const MapEdges edges(mesh);
   const EdgeAngles angles = edge_angles(mesh, map, edges, inverted_tets(map));
   EdgeCodes codes;
   for (std::size_t e = 0; e < edges.size(); ++e) {

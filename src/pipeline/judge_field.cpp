@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "hexfield/base/error.hpp"
+#include "hexfield/field/singularity_graph.hpp"
 #include "stages.hpp"
 
 namespace hexfield {
@@ -14,25 +15,49 @@ std::string code_name(EdgeCode code) {
   return std::to_string(code);
 }
 
+/// Notes where the defects are and returns their numbers at edges and vertices.
+std::pair<std::size_t, std::size_t> note_defects(RunState& state, const std::vector<Defect>& defects,
+                                                 std::vector<Vec3>& places) {
+  std::size_t edges = 0;
+  std::size_t vertices = 0;
+  for (const Defect& defect : defects) {
+    places.insert(places.end(), defect.places.begin(), defect.places.end());
+    if (defect.vertices.size() == 2) {
+      ++edges;
+      state.culprits.edges.emplace_back(edge_key(defect.vertices[0], defect.vertices[1]), Culprits::bad_edge);
+    } else {
+      ++vertices;
+      for (VertexId v : defect.vertices) state.culprits.nodes.emplace_back(v, Culprits::bad_node);
+    }
+  }
+  return {edges, vertices};
+}
+
 }  // namespace
 
 void judge_field(RunState& state) {
-  std::map<std::string, std::size_t> counts;
-  for (const auto& entry : state.field.codes) ++counts[code_name(entry.second)];
-  state.report["field"] = {{"singular_edges", counts}, {"zipper_nodes", nullptr}};
-  const std::size_t bad = counts["compound"] + counts["undetermined"];
-  state.report["meshability"]["before"] = {{"edges", bad}, {"vertices", nullptr}};
-  state.report["meshability"]["after"] = state.report["meshability"]["before"];
+  const FieldResult& f = state.field;
+  const SingularityGraph graph = singularity_graph(f.mesh, f.features, f.field, f.codes);
+  Json counts = Json::object();
+  for (const auto& [code, count] : graph.edges) counts[code_name(code)] = count;
+  std::map<std::string, std::size_t> kinds;
+  for (const SingularNode& node : graph.nodes) ++kinds[name(node.kind)];
+  state.report["field"] = {{"singular_edges", counts},
+                           {"zipper_nodes", kinds[name(NodeKind::zipper)]},
+                           {"nodes", kinds},
+                           {"arcs", graph.arcs.size()},
+                           {"tets", f.mesh.num_tets()},
+                           {"vertices", f.mesh.num_vertices()}};
+  const std::vector<Defect> defects = find_defects(f.mesh, f.features, f.field, f.codes);
   std::vector<Vec3> places;
-  for (const auto& [edge, code] : state.field.codes) {
-    if (code != compound_code && code != undetermined_code) continue;
-    state.culprits.edges.emplace_back(edge, Culprits::compound_edge);
-    places.push_back((state.field.mesh.point(edge[0]) + state.field.mesh.point(edge[1])) / 2);
-  }
-  if (bad == 0) return;
+  const auto [edges, vertices] = note_defects(state, defects, places);
+  // Repair will have its numbers under "after"; until then nothing changes in between.
+  const Json numbers = {{"edges", edges}, {"vertices", vertices}};
+  state.report["meshability"] = {{"before", numbers}, {"after", numbers}};
+  if (defects.empty()) return;
   throw Error(ExitCode::not_meshable,
-              fmt::format("The field is not locally meshable: {} edges have no single axis, first at {}.", bad,
-                          place_text(places.front())),
+              fmt::format("The field is not locally meshable at {} edges and {} vertices: {}", edges, vertices,
+                          defects.front().sentence),
               {}, places);
 }
 

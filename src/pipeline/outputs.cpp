@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <map>
 #include <set>
+#include <span>
 #include <system_error>
 
 #include "hexfield/base/error.hpp"
+#include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/io/debug_vtk.hpp"
 #include "hexfield/io/format.hpp"
 #include "hexfield/io/hex_io.hpp"
@@ -66,10 +65,22 @@ std::array<std::int32_t, N> numbers(const std::array<VertexId, N>& vertices) {
   return values;
 }
 
+/// Lines of the arcs and points of the nodes; `code` of a node is 0, `kind` of an arc is -1, `arc` of a node is -1.
 void write_singularities(const RunState& state) {
-  Picture picture(state.field.mesh.points);
-  for (const auto& [edge, code] : state.field.codes) picture.add(numbers(edge), {code});
-  picture.write(state.options.output / "singularities.vtk", {"code"});
+  const FieldResult& f = state.field;
+  const SingularityGraph graph = singularity_graph(f.mesh, f.features, f.field, f.codes);
+  Picture picture(f.mesh.points);
+  for (std::size_t a = 0; a < graph.arcs.size(); ++a) {
+    const std::vector<VertexId>& chain = graph.arcs[a].vertices;
+    for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+      picture.add(std::array{chain[k].value, chain[k + 1].value},
+                  {graph.arcs[a].code, graph.arcs[a].boundary ? 1 : 0, -1, static_cast<int>(a)});
+    }
+  }
+  for (const SingularNode& node : graph.nodes) {
+    picture.add(std::array{node.vertex.value}, {0, 0, static_cast<int>(node.kind), -1});
+  }
+  picture.write(state.options.output / "singularities.vtk", {"code", "boundary", "kind", "arc"});
 }
 
 void write_why(const RunState& state) {
@@ -128,13 +139,7 @@ void write_results(const RunState& state, bool failed) {
 }
 
 void write_text(const fs::path& file, const std::string& text) {
-  write_whole_file(file, [&](const fs::path& fresh) {
-    std::ofstream stream(fresh, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream)
-      throw Error(ExitCode::bad_input, fmt::format("Cannot write {}: {}.", file.string(), std::strerror(errno)));
-  });
+  write_whole_file(file, [&](const fs::path& fresh) { write_bytes(fresh, std::as_bytes(std::span(text))); });
 }
 
 }  // namespace hexfield

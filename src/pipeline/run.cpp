@@ -201,6 +201,7 @@ void Runner::save(const Stage& stage, const std::string& basis) {
   team_.on_root([&] {
     checkpoint_->save({stage.name, basis, state_.report["stages"].back().dump()}, stage.pack(state_));
     IterateRing::remove_all(options_.output);
+    log_.debug(fmt::format("{} is in the checkpoint.", stage.name));
   });
 }
 
@@ -258,7 +259,8 @@ Outcome Runner::go() {
 Outcome Runner::finish(Outcome outcome, const std::vector<Vec3>& where) {
   if (!output_open_) return outcome;
   if (outcome.code == ExitCode::stopped) {
-    outcome.sentence += fmt::format(" The same command with --resume continues from {}.", options_.output.string());
+    outcome.sentence = fmt::format("Stopped by {} at stage {}; the same command with --resume continues from {}.",
+                                   safe_points_.reason(), current_, options_.output.string());
   }
   try {
     team_.on_root([&] {

@@ -18,7 +18,7 @@ namespace hexfield {
 /// Entities that a verdict is about, for why.vtk; ids of the mesh of the field stage (or of the hex mesh for `hexes`).
 struct Culprits {
   /// What is wrong with an entity: the scalar `kind` of why.vtk.
-  enum Kind { inverted_tet = 1, wrong_angle = 2, compound_edge = 3, bad_node = 4, bad_hex = 5, place = 6, other = 7 };
+  enum Kind { inverted_tet = 1, wrong_angle = 2, bad_edge = 3, bad_node = 4, bad_hex = 5, place = 6, other = 7 };
   std::vector<std::pair<TetId, Kind>> tets;
   std::vector<std::pair<EdgeKey, Kind>> edges;
   std::vector<std::pair<VertexId, Kind>> nodes;

@@ -37,6 +37,7 @@ Stage read_stage() {
     state.team.on_root([&] {
       progress.report("reading " + state.options.input.string(), -1);
       state.input = read_tet_mesh(state.options.input);
+      for (const std::string& note : state.input.notes) state.log.warning(note);
       complete_features(state.input.mesh, state.input.features, state.options.feature_angle);
     });
   };
@@ -129,7 +130,7 @@ Stage extract_stage() {
   stage.pack = [](const RunState& state) { return pack(state.hexes); };
   stage.unpack = [](RunState& state, const NamedArrays& arrays) { state.hexes = unpack_hex_mesh(arrays); };
   // Extraction may give hexes that only smoothing makes positive: the verdict comes after stage 8.
-  stage.judge = [](RunState&) {};
+  stage.judge = describe_hexes;
   stage.check = no_violations;
   return stage;
 }

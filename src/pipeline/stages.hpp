@@ -33,6 +33,8 @@ void judge_field(RunState& state);
 void judge_seamless(RunState& state);
 void judge_igm(RunState& state);
 void judge_hexes(RunState& state);
+/// The section of the report that judge_hexes() makes, without its verdict.
+void describe_hexes(RunState& state);
 
 /// "(x, y, z)" for sentences.
 std::string place_text(const Vec3& p);

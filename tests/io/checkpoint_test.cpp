@@ -1,7 +1,9 @@
 #include "hexfield/io/checkpoint.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <random>
 
 #include "hexfield/base/error.hpp"
@@ -150,12 +152,12 @@ TEST(Checkpoint, RefusesTornFilesOfAnyLength) {
   Checkpoint written(scratch / "run.h5", "h");
   written.save({"read", "b", "{}"}, pack(box_with_features()));
   const std::string whole = bytes_of(scratch / "run.h5");
-  for (std::size_t length = 0; length < whole.size(); length += 97) {
+  for (std::size_t length = 0; length < whole.size(); length += 499) {
     write_bytes(scratch / "torn.h5", whole.substr(0, length));
     const std::string sentence = refusal([&] { Checkpoint::open(scratch / "torn.h5"); });
     EXPECT_THAT(sentence, HasSubstr("torn.h5")) << length;
   }
-  for (std::size_t place = 0; place < whole.size(); place += 61) {
+  for (std::size_t place = 0; place < whole.size(); place += 211) {
     std::string damaged = whole;
     damaged[place] = static_cast<char>(damaged[place] ^ 0x40);
     write_bytes(scratch / "damaged.h5", damaged);
@@ -163,6 +165,31 @@ TEST(Checkpoint, RefusesTornFilesOfAnyLength) {
     const bool padding = place < 512 && whole[place] == '\0';
     EXPECT_EQ(refusal([&] { Checkpoint::open(scratch / "damaged.h5"); }).empty(), padding) << place;
   }
+}
+
+TEST(Checkpoint, AFullDiskIsASentenceAndLeavesTheOldFile) {
+  const ScratchDirectory scratch;
+  Checkpoint written(scratch / "run.h5", "h");
+  written.save({"read", "b", "{}"}, pack(box_with_features()));
+  const std::string whole = bytes_of(scratch / "run.h5");
+  // Writing beyond a limit on the size of files fails as on a full disk.
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  for (rlim_t bytes : {rlim_t{100}, rlim_t{3000}, rlim_t{9000}}) {
+    const rlimit small{bytes, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    NamedArrays values;
+    values.own("x", std::vector<double>(20000, 1.5), 1);
+    const std::string sentence = refusal([&] { written.save({"field", "b", "{}"}, values); });
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_THAT(sentence, HasSubstr("run.h5")) << bytes;
+    EXPECT_EQ(bytes_of(scratch / "run.h5"), whole) << bytes;
+  }
+  std::signal(SIGXFSZ, old_handler);
+  written.save({"field", "b", "{}"}, pack(box_with_features()));
+  EXPECT_EQ(Checkpoint::open(scratch / "run.h5").stages().size(), 2u);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.path()), {}), 1);
 }
 
 TEST(Checkpoint, RefusesForeignAndNewerFiles) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <span>
 
 namespace hexfield {
 
@@ -11,6 +13,9 @@ namespace hexfield {
 /// Throws Error(bad_input) with the reason of the system when the disk does not take it; passes on what `write` throws.
 void write_whole_file(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path&)>& write);
+
+/// Writes a new file of these bytes. Throws Error(bad_input) when the disk does not take them.
+void write_bytes(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 /// Flushes a file (or directory) to the disk. Throws Error(bad_input) when the disk does not take it.
 void flush_to_disk(const std::filesystem::path& file);

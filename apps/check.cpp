@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "commands.hpp"
+#include "hexfield/hex/check.hpp"
+#include "hexfield/io/checkpoint.hpp"
+#include "hexfield/io/checkpoint_values.hpp"
+#include "hexfield/io/hex_io.hpp"
+#include "hexfield/io/tet_io.hpp"
+
+namespace hexfield::apps {
+namespace {
+
+struct CheckLine {
+  std::string file;
+  std::string against;
+};
+
+/// Prints every violation and returns their number.
+std::size_t print_all(const std::vector<Violation>& violations) {
+  for (const Violation& violation : violations) fmt::print("{}\n", violation.sentence);
+  return violations.size();
+}
+
+/// Reads every stage back and checks its value.
+std::size_t check_checkpoint(const Checkpoint& checkpoint) {
+  std::size_t defects = 0;
+  std::size_t tets = 0;
+  for (const StageEntry& stage : checkpoint.stages()) {
+    const NamedArrays arrays = checkpoint.load(stage.name);
+    if (stage.name == "read") {
+      defects += print_all(check(unpack_tet_input(arrays).mesh));
+    } else if (stage.name == "field") {
+      const FieldResult field = unpack_field(arrays);
+      tets = field.mesh.num_tets();
+      defects += print_all(check(field.mesh));
+    } else if (stage.name == "seamless") {
+      unpack_seamless(arrays, tets);
+    } else if (stage.name == "igm") {
+      unpack_igm(arrays, tets);
+    } else {
+      unpack_hex_mesh(arrays);
+    }
+    fmt::print("stage {}: read back\n", stage.name);
+  }
+  return defects;
+}
+
+/// Quality, and the defects of the mesh alone and against the tet mesh that it was made from.
+std::size_t check_hexes(const HexMesh& mesh, const std::string& against) {
+  const HexQuality measured = quality(mesh);
+  fmt::print("{} hexes, scaled Jacobian from {:.4f}, mean {:.4f}\n", mesh.hexes.size(), measured.min, measured.mean);
+  std::size_t defects = print_all(check(mesh));
+  if (!against.empty()) {
+    const TetInput tets = read_tet_mesh(against);
+    const HexAgainstTets compared = check_against(mesh, tets.mesh, tets.features);
+    fmt::print("volume ratio {:.6f}; {} points, {} curves and {} surfaces wanted\n", compared.volume_ratio,
+               compared.points.wanted, compared.curves.wanted, compared.surfaces.wanted);
+    defects += print_all(compared.violations);
+  }
+  return defects;
+}
+
+ExitCode verdict(std::size_t defects, ExitCode bad) {
+  fmt::print("{} defects\n", defects);
+  return defects == 0 ? ExitCode::success : bad;
+}
+
+/// The hex mesh of a file; nothing when it holds no hexes or cannot be read as such.
+std::optional<HexMesh> as_hex_mesh(const std::string& file) {
+  try {
+    HexMesh mesh = read_hex_mesh(file);
+    if (!mesh.hexes.empty()) return mesh;
+  } catch (const Error&) {
+    // The check as a tet mesh tells what is wrong with it.
+  }
+  return std::nullopt;
+}
+
+ExitCode check_command(const CheckLine& line) {
+  return on_rank_zero([&] {
+    if (looks_like_checkpoint(line.file)) {
+      return verdict(check_checkpoint(Checkpoint::open(line.file)), ExitCode::bad_input);
+    }
+    if (const auto hexes = as_hex_mesh(line.file))
+      return verdict(check_hexes(*hexes, line.against), ExitCode::bad_hex_mesh);
+    return verdict(print_all(check_tet_file(line.file)), ExitCode::bad_input);
+  });
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("check", "Every defect of a tet mesh, a checkpoint or a hex mesh");
+  auto line = std::make_shared<CheckLine>();
+  command->add_option("FILE", line->file, "Mesh or run.h5")->required();
+  command->add_option("--against", line->against, "Tet mesh that the hex mesh was made from")->type_name("TETS");
+  command->callback([line, &action] { action = [line] { return check_command(*line); }; });
+}
+
+}  // namespace hexfield::apps
