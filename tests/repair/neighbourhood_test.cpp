@@ -10,7 +10,7 @@ namespace {
 
 RepairState box_state(int n) {
   RepairState state;
-  state.mesh = testing::kuhn_box(n, n, n);
+  state.mesh = hexfield::testing::kuhn_box(n, n, n);
   for (std::size_t t = 0; t < state.mesh.num_tets(); ++t)
     for (int f = 0; f < 4; ++f)
       if (const HalfFaceId h(TetId(static_cast<std::int64_t>(t)), f); state.mesh.is_boundary(h))
