@@ -13,25 +13,26 @@ HEX_CORNERS = np.array(
 HEX_FACES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
 
 
-def read_mesh(path):
-    """points (n, 3), {cell type: (k, nodes)}, {cell type: (k,) integers or None} of a mesh file.
+def read_mesh(path, array=None):
+    """points (n, 3), {cell type: (k, nodes)}, {cell type: (k,) numbers} of a mesh file.
 
-    Cell types by meshio's names: vertex, line, triangle, quad, tetra, hexahedron. The integers are the first
-    integer cell array of the file (the colours).
+    Cell types by meshio's names: vertex, line, triangle, quad, tetra, hexahedron. The numbers are those of the cell
+    array of that name (default: the first of the file, the colours); empty when there is none.
     """
     import meshio
 
     mesh = meshio.read(path)
-    numbers = next((data for data in mesh.cell_data.values() if np.asarray(data[0]).ndim == 1), None)
-    cells, colours = {}, {}
+    names = [name for name in mesh.cell_data if array in (None, name)]
+    cells, numbers = {}, {}
     for index, block in enumerate(mesh.cells):
         cells.setdefault(block.type, []).append(block.data)
-        if numbers is not None:
-            colours.setdefault(block.type, []).append(np.asarray(numbers[index]))
+        if names:
+            values = np.asarray(mesh.cell_data[names[0]][index]).reshape(len(block.data), -1)
+            numbers.setdefault(block.type, []).append(values[:, 0])
     return (
         np.asarray(mesh.points, float),
         {kind: np.concatenate(blocks) for kind, blocks in cells.items()},
-        {kind: np.concatenate(blocks) for kind, blocks in colours.items()},
+        {kind: np.concatenate(blocks) for kind, blocks in numbers.items()},
     )
 
 

@@ -5,7 +5,8 @@
 
 Draws the boundary quads by depth, without a display or a graphics card. --cut removes the hexes whose centre lies
 beyond that fraction of the bounding box on an axis and shows the inside in the colours of its scaled Jacobians.
-Singular edges: red for index -1 (three hexes around), blue for +1 (five), violet for the rest.
+Singular edges: red for code -1 (a hex too few around: three, or one at a convex edge of the boundary), blue for +1
+(five, or three at a concave edge), violet for the rest; thick inside, thin on the boundary.
 """
 
 import argparse
@@ -54,18 +55,19 @@ def visible_quads(points, hexes, kept, view):
     inside = np.array([tuple(q) not in everything for q in np.sort(quads, axis=1).tolist()], bool)
     quality = scaled_jacobians(points, hexes[kept])[owner[inside]]
     colour[inside] = matplotlib.colormaps["viridis"](np.clip(quality, 0, 1))[:, :3]
-    shade = 0.55 + 0.45 * np.clip(normal @ (LIGHT / np.linalg.norm(LIGHT)), 0, 1)
+    shade = np.where(inside, 1, 0.55 + 0.45 * np.clip(normal @ (LIGHT / np.linalg.norm(LIGHT)), 0, 1))
     order = np.argsort((corners.mean(axis=1) @ view[2]))
     return corners[order], (colour * shade[:, None])[order]
 
 
 def singular_lines(path):
-    """(segments (k, 2, 3), colours) of the file of singular edges."""
-    points, cells, codes = read_mesh(path)
+    """(segments (k, 2, 3), colours, widths) of the file of singular edges; those on the boundary are thin."""
+    points, cells, codes = read_mesh(path, "code")
     lines = cells.get("line", np.zeros((0, 2), int))
-    index = codes.get("line", np.zeros(len(lines), int))
+    on_boundary = read_mesh(path, "boundary")[2].get("line", np.zeros(len(lines), int))
     names = {-1: "#cc3311", 1: "#0077bb"}
-    return points[lines], [names.get(int(i), "#aa3377") for i in index]
+    colours = [names.get(int(code), "#aa3377") for code in codes.get("line", np.zeros(len(lines), int))]
+    return points[lines], colours, np.where(on_boundary != 0, 1.2, 3.0)
 
 
 def draw(arguments):
@@ -81,8 +83,8 @@ def draw(arguments):
     width = 0.6 if len(corners) < 5000 else 0.25
     axes.add_collection(PolyCollection(corners @ view[:2].T, facecolors=colours, edgecolors="#333333", linewidths=width))
     if arguments.singularities:
-        segments, names = singular_lines(arguments.singularities)
-        axes.add_collection(LineCollection(segments @ view[:2].T, colors=names, linewidths=2))
+        segments, names, widths = singular_lines(arguments.singularities)
+        axes.add_collection(LineCollection(segments @ view[:2].T, colors=names, linewidths=widths))
     flat = points @ view[:2].T
     margin = 0.03 * np.ptp(flat, axis=0).max()
     axes.set_xlim(flat[:, 0].min() - margin, flat[:, 0].max() + margin)

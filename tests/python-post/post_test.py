@@ -13,7 +13,7 @@ sys.path.insert(0, str(POST))
 sys.dont_write_bytecode = True
 
 import numpy as np  # noqa: E402
-from hexfield_post import boundary_quads, scaled_jacobians  # noqa: E402
+from hexfield_post import boundary_quads, read_mesh, scaled_jacobians  # noqa: E402
 
 UNIT_CUBE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
 
@@ -29,14 +29,14 @@ def grid(n):
     return points, np.array(hexes)
 
 
-def write_vtk(path, points, cells):
+def write_vtk(path, points, cells, array="CellEntityIds"):
     """Legacy VTK 2.0 in the layout of the program; cells: list of (type, nodes, colour)."""
     lines = ["# vtk DataFile Version 2.0", "made by a test", "ASCII", "DATASET UNSTRUCTURED_GRID"]
     lines += [f"POINTS {len(points)} double"] + [" ".join(map(str, p)) for p in points]
     lines += [f"CELLS {len(cells)} {sum(len(nodes) + 1 for _, nodes, _ in cells)}"]
     lines += [" ".join(map(str, [len(nodes), *nodes])) for _, nodes, _ in cells]
     lines += [f"CELL_TYPES {len(cells)}"] + [str(kind) for kind, _, _ in cells]
-    lines += [f"CELL_DATA {len(cells)}", "SCALARS CellEntityIds int 1", "LOOKUP_TABLE default"]
+    lines += [f"CELL_DATA {len(cells)}", f"SCALARS {array} int 1", "LOOKUP_TABLE default"]
     lines += [str(colour) for _, _, colour in cells]
     path.write_text("\n".join(lines) + "\n")
 
@@ -72,7 +72,7 @@ class Post(unittest.TestCase):
         points, hexes = grid(n)
         cells = [(1, [0], 1), (3, [0, 1], 2)] + [(9, q, 3) for q in boundary_quads(hexes)[0]]
         write_vtk(self.path / "hex.vtk", points, cells + [(12, h, 1) for h in hexes])
-        write_vtk(self.path / "singularities.vtk", points, [(3, [0, len(points) - 1], -1), (3, [1, 2], 1)])
+        write_vtk(self.path / "singularities.vtk", points, [(3, [0, len(points) - 1], -1), (3, [1, 2], 1)], "code")
 
     def test_scaled_jacobians_of_a_cube_a_shear_and_an_inverted_hex(self):
         hexes = np.arange(8)[None, :]
@@ -89,6 +89,14 @@ class Post(unittest.TestCase):
         normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
         outwards = corners.mean(axis=1) - points[hexes[owner]].mean(axis=1)
         self.assertTrue((np.einsum("ij,ij->i", normal, outwards) > 0).all())
+
+    def test_cell_arrays_are_read_by_name(self):
+        self.write_grid()
+        points, cells, codes = read_mesh(self.path / "singularities.vtk", "code")
+        self.assertEqual(codes["line"].tolist(), [-1, 1])
+        self.assertEqual(read_mesh(self.path / "singularities.vtk", "boundary")[2], {})
+        _, cells, colours = read_mesh(self.path / "hex.vtk")
+        self.assertEqual([colours[kind][0] for kind in ("vertex", "line", "quad", "hexahedron")], [1, 2, 3, 1])
 
     def test_timing_table(self):
         for ranks in (1, 2):
