@@ -94,13 +94,36 @@ std::string reason_of(const IntegerOutcome& outcome, const MapReport& report) {
 class Stage {
  public:
   Stage(MPI_Comm comm, const TetMesh& mesh, const Features& features, const EdgeCodes& codes, const Control& control)
-      : comm_(comm), mesh_(mesh), features_(features), codes_(codes), monitor_(control, "igm") {}
+      : comm_(comm), mesh_(mesh), features_(features), codes_(codes), control_(control), monitor_(control, "igm") {}
 
   IgmResult run(const SeamlessMap& map, const IgmOptions& options) {
     agree(comm_, [&] {
       if (root()) seamless_ = prepare(mesh_, features_, codes_, map, options);
     });
     const MapProblem problem(comm_, mesh_, seamless_.space);
+    if (!resume(problem)) round_and_solve(problem);
+    result_.newton_steps = monitor_.newton_steps();
+    result_.linear_iterations = monitor_.linear_iterations();
+    return std::move(result_);
+  }
+
+ private:
+  bool root() const { return rank_of(comm_) == 0; }
+
+  // Goes on with the integers of an interrupted run; false when there is none or it fails.
+  bool resume(const MapProblem& problem) {
+    if (!control_.restore_iterate) return false;
+    const std::optional<std::vector<double>> row = control_.restore_iterate("igm");
+    std::optional<IntegerGoal> goal;
+    if (root() && row) goal = unpack_goal(*row, seamless_.space);
+    bool found = goal.has_value();
+    broadcast(comm_, found);
+    if (!found) return false;
+    result_.quantization_valid = true;
+    return try_goal(problem, goal ? *goal : IntegerGoal());
+  }
+
+  void round_and_solve(const MapProblem& problem) {
     double scale = root() ? std::cbrt(seamless_.hexes / seamless_.map_volume) : 0;
     for (int attempt = 0; attempt < max_tries; ++attempt, scale *= 1.12) {
       bool found = false;
@@ -120,13 +143,7 @@ class Stage {
       result_.quantization_valid = true;
       if (try_integers(problem, rounded)) break;
     }
-    result_.newton_steps = monitor_.newton_steps();
-    result_.linear_iterations = monitor_.linear_iterations();
-    return std::move(result_);
   }
-
- private:
-  bool root() const { return rank_of(comm_) == 0; }
 
   bool try_integers(const MapProblem& problem, Rounded& rounded) {
     IntegerGoal goal;
@@ -135,8 +152,13 @@ class Stage {
       goal.start = scaled(seamless_.unknowns, rounded.scale);
       goal.edge = std::cbrt(seamless_.domain_volume / seamless_.map_volume) / rounded.scale;
     }
+    return try_goal(problem, std::move(goal));
+  }
+
+  bool try_goal(const MapProblem& problem, IntegerGoal goal) {
     broadcast(comm_, goal.integers);
     broadcast(comm_, goal.edge);
+    broadcast(comm_, goal.first_phase);
     IntegerOutcome outcome = reach_integers(problem, goal, monitor_);
     agree(comm_, [&] {
       if (root()) judge(outcome);
@@ -170,6 +192,7 @@ class Stage {
   const TetMesh& mesh_;
   const Features& features_;
   const EdgeCodes& codes_;
+  const Control& control_;
   SolveMonitor monitor_;
   Seamless seamless_;
   IgmResult result_;

@@ -4,6 +4,7 @@
 #include "hexfield/base/agree.hpp"
 #include "hexfield/field/constraints.hpp"
 #include "hexfield/map/compute_map.hpp"
+#include "hexfield/map/integrable_frames.hpp"
 #include "hexfield/map/verify.hpp"
 #include "map_problem.hpp"
 #include "solve_monitor.hpp"
@@ -44,10 +45,12 @@ class Stage {
     });
     const MapProblem problem(comm_, mesh_, space_);
     edge_ = std::cbrt(problem.total_volume() / options_.target_hexes);
-    Candidate best = judged(fit(problem, field_frames()));
-    if (!best.report.valid()) {
-      const Candidate other = judged(untangle(problem, best.unknowns, {}, edge_, untangling_rounds, monitor_));
-      if (other.better_than(best)) best = other;
+    Candidate best;
+    if (!restore(problem, best)) {
+      best = judged(fit(problem, field_frames()));
+      if (!best.report.valid()) try_integrable_frames(problem, best);
+      if (!best.report.valid())
+        keep_better(best, judged(untangle(problem, best.unknowns, {}, edge_, untangling_rounds, monitor_)));
     }
     if (best.report.inverted.empty()) {
       const Candidate polished = judged(polish(problem, best.unknowns));
@@ -60,9 +63,51 @@ class Stage {
   bool root() const { return rank_of(comm_) == 0; }
 
   void prepare() {
-    const Alignments alignments =
-        alignments_of_field(collect_constraints(mesh_, features_, field_, codes_), features_, codes_);
-    space_ = conforming_space(mesh_, cut_graph(mesh_, field_.matchings, singular_edges(codes_)), alignments);
+    constraints_ = collect_constraints(mesh_, features_, field_, codes_);
+    space_ = conforming_space(mesh_, cut_graph(mesh_, field_.matchings, singular_edges(codes_)),
+                              alignments_of_field(constraints_, features_, codes_));
+  }
+
+  // The iterate of an interrupted polish, if there is one.
+  bool restore(const MapProblem& problem, Candidate& best) {
+    if (!control_.restore_iterate) return false;
+    const std::optional<std::vector<double>> iterate = control_.restore_iterate("seamless");
+    bool found = iterate.has_value() && (!root() || iterate->size() == space_.num_unknowns());
+    broadcast(problem.comm(), found);
+    if (found) best = judged(*iterate);
+    return found && best.report.inverted.empty();
+  }
+
+  static void keep_better(Candidate& best, Candidate other) {
+    if (other.better_than(best)) best = std::move(other);
+  }
+
+  // Conforming fits to the frames after each stage of their optimisation, until one is valid.
+  void try_integrable_frames(const MapProblem& problem, Candidate& best) {
+    const IntegrableOptions options;
+    try {
+      IntegrableFrames frames(comm_, mesh_, field_, constraints_, space_, options);
+      const auto reports = optimise_integrable_frames(
+          frames, comm_, options, control_, [&](std::size_t, IntegrableFrames& now, const IntegrableStageReport&) {
+            keep_better(best, judged(fit(problem, inverse_frames(now.gather()))));
+            return best.report.valid();
+          });
+      for (const IntegrableStageReport& report : reports) {
+        newton_steps_ += report.newton_steps;
+        linear_iterations_ += report.linear_iterations;
+      }
+    } catch (const Error& error) {
+      // Frames that cannot be aligned at all leave the direct fit, which is then judged as it is.
+      if (error.code() != ExitCode::no_seamless_map) throw;
+    }
+  }
+
+  // Combed frames whose inverses are the Jacobians J (per tet, in the charts of the field), on rank 0.
+  std::vector<Mat3> inverse_frames(const std::vector<Mat3>& jacobians) const {
+    std::vector<Mat3> frames;
+    for (std::size_t t = 0; t < jacobians.size(); ++t)
+      frames.push_back(edge_ * (jacobians[t].inverse() * octahedral::matrix(space_.cut.gauges[t])));
+    return frames;
   }
 
   // Combed frames scaled to the wanted edge length, on rank 0.
@@ -125,7 +170,7 @@ class Stage {
       result.report = verify_map(mesh_, features_, codes_, result.map);
     });
     broadcast(comm_, result.report);
-    result.newton_steps = monitor_.newton_steps();
+    result.newton_steps = newton_steps_ + monitor_.newton_steps();
     result.linear_iterations = linear_iterations_ + monitor_.linear_iterations();
     return result;
   }
@@ -140,6 +185,8 @@ class Stage {
   SolveMonitor monitor_;
   ConformingSpace space_;
   double edge_ = 1;
+  std::vector<AxisConstraint> constraints_;
+  int newton_steps_ = 0;
   int linear_iterations_ = 0;
 };
 

@@ -51,6 +51,13 @@ bool inside(const MapProblem& problem, std::span<const solve::EnergyTerm* const>
 
 }  // namespace
 
+std::optional<IntegerGoal> unpack_goal(const std::vector<double>& row, const ConformingSpace& space) {
+  if (row.size() != 2 + space.num_integers + space.num_unknowns()) return std::nullopt;
+  const auto integers = row.begin() + 2;
+  const auto unknowns = integers + static_cast<std::ptrdiff_t>(space.num_integers);
+  return IntegerGoal{{integers, unknowns}, {unknowns, row.end()}, row[1], static_cast<int>(row[0])};
+}
+
 int num_integer_phases() { return static_cast<int>(penalties.size()); }
 
 IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal, SolveMonitor& monitor) {

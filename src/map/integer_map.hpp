@@ -19,6 +19,10 @@ struct IntegerOutcome {
   double distance = 0;           ///< largest distance of an integer unknown from its goal
 };
 
+/// Where an interrupted run of reach_integers() stood, from the iterate it offered; nullopt when the row does
+/// not fit the space.
+std::optional<IntegerGoal> unpack_goal(const std::vector<double>& row, const ConformingSpace& space);
+
 /// Number of penalty phases before the integers are fixed.
 int num_integer_phases();
 

@@ -10,7 +10,7 @@ solve::NewtonResult SolveMonitor::minimise(MPI_Comm comm, std::span<const solve:
   bool stop = false;
   options.monitor = [&](int, double, double) {
     if (control_.progress) control_.progress(what, -1);
-    if (control_.offer_iterate) control_.offer_iterate(name_, gather);
+    if (control_.offer_iterate && gather) control_.offer_iterate(name_, gather);
     stop = control_.stop_requested && control_.stop_requested();
     return !stop;
   };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ class SolveMonitor {
   /// `name` is that of the iterate in checkpoints.
   SolveMonitor(const Control& control, std::string name) : control_(control), name_(std::move(name)) {}
 
-  /// Runs minimise() with this monitor; `gather` gives the iterate of the moment on rank 0. Counts steps.
+  /// Runs minimise() with this monitor; `gather` gives the iterate of the moment on rank 0 (when empty, nothing is
+  /// offered). Counts steps.
   /// Throws Error(stopped) when the run must end, after the iterate was offered.
   solve::NewtonResult minimise(MPI_Comm comm, std::span<const solve::EnergyTerm* const> terms, Vec y,
                                solve::NewtonOptions options, const std::string& what,

@@ -36,7 +36,7 @@ std::vector<double> untangle(const MapProblem& problem, const std::vector<double
     broadcast(comm, smallest);
     if (smallest > 0) break;
     energy.set_epsilon(std::sqrt(1e-8 + 0.04 * smallest * smallest));
-    monitor.minimise(comm, terms, y.get(), options, "untangling", [&] { return std::vector<double>(); });
+    monitor.minimise(comm, terms, y.get(), options, "untangling", {});
     unknowns = problem.gather(y.get(), fixed);
   }
   return unknowns;
