@@ -212,7 +212,7 @@ TEST(BadInput, HexexFiles) {
   expect_refused("range.hexex", with("0 1 2 3", "0 1 2 4"), {"line 7", "vertex 4 does not exist"});
   expect_refused("twice.hexex", with("0 1 2 3", "0 1 2 2"), {"line 7", "tet 0 has a vertex twice"});
   expect_refused("three.hexex", points + "3\n" + tets.substr(2) + tets.substr(2) + tets.substr(2),
-                 {"more than two tets: 0, 1, 2"});
+                 {"more than two tets", "0, 1, 2"});
   expect_refused("none.hexex", points + "0\n", {"no tetrahedra"});
   expect_refused("more.hexex", points + tets + "0 0 0\n7\n", {"goes on"});
   expect_refused("edge.hexex", points + tets + "0 1 0\n1 1\n", {"feature edge 0 (1, 1)"});
