@@ -116,7 +116,11 @@ HexexInput io::read_hexex(Scanner in) {
   orient(points, tets, input.map.uvw, input);
   // One number alone in its line counts walls, three count features.
   if (!in.at_end() && tokens_in_line(in) == 1) input.walls = read_walls(in, points.size());
-  input.mesh = build_tet_mesh(std::move(points), std::move(tets));
+  try {
+    input.mesh = build_tet_mesh(std::move(points), std::move(tets));
+  } catch (const Error& error) {
+    throw Error(error.code(), in.file() + ": " + error.sentence(), error.ids(), error.places());
+  }
   if (!in.at_end()) input.features = read_features(in, input.mesh);
   if (!in.at_end()) in.fail("the file goes on behind its last list");
   input.map.rotations = derive_rotations(input.mesh, input.map.uvw);

@@ -173,9 +173,8 @@ void VtkReader::read_attribute(const std::string& kind) {
 void VtkReader::read_scalars() {
   const std::string name(in_.token("the name of the scalars"));
   const VtkType type = vtk_type(in_, in_.token("the type of the scalars"));
-  Scanner rest("", in_.line());
-  std::int64_t components = 1;
-  if (!rest.at_end()) components = rest.integer("the number of components");
+  const std::int64_t components = in_.more_in_line() ? in_.integer("the number of components") : 1;
+  in_.line();
   if (lower(in_.peek().substr(0, 12)) == "lookup_table") in_.line();
   take_values(name, components, num_attributes_, type);
 }

@@ -122,6 +122,11 @@ void Scanner::check_count(std::int64_t n, const char* what, std::size_t bytes_ea
                     what, n, remaining()));
 }
 
+bool Scanner::more_in_line() const {
+  const std::size_t at = data_.find_first_not_of(" \t\r", at_);
+  return at != std::string_view::npos && data_[at] != '\n';
+}
+
 std::string_view Scanner::line() {
   const std::size_t end = std::min(data_.find('\n', at_), data_.size());
   std::string_view text = data_.substr(at_, end - at_);

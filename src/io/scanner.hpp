@@ -43,6 +43,8 @@ class Scanner {
   /// impossible numbers, so that memory can be reserved for it.
   std::size_t count(const char* what, std::size_t bytes_each);
   void check_count(std::int64_t n, const char* what, std::size_t bytes_each) const;
+  /// True when something other than white space follows in this line.
+  bool more_in_line() const;
   /// The rest of the line without its end; moves behind the end.
   std::string_view line();
   /// Skips lines up to and including the next one that is `text`; false when there is none.

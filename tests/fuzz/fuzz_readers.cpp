@@ -30,7 +30,7 @@ using namespace hexfield;
 std::string judged(const fuzz::Seed& seed, const std::string& data) {
   try {
     if (seed.hexex) {
-      const HexexInput input = io::read_hexex(io::Scanner("fuzz", data));
+      const HexexInput input = io::read_hexex(io::Scanner(seed.name, data));
       require(input.map.rotations.size() == input.mesh.num_tets(), "rotations are missing");
       return "read";
     }
@@ -42,8 +42,9 @@ std::string judged(const fuzz::Seed& seed, const std::string& data) {
     io::assemble_hexes(soup);
     return "read";
   } catch (const Error& error) {
-    const bool one_line = error.sentence().find('\n') == std::string::npos;
-    if (error.code() == ExitCode::bad_input && one_line) return "refused";
+    const std::string& text = error.sentence();
+    const bool one_sentence = text.find('\n') == std::string::npos && text.starts_with(seed.name) && text.back() == '.';
+    if (error.code() == ExitCode::bad_input && one_sentence) return "refused";
     return fmt::format("code {}: {}", static_cast<int>(error.code()), error.what());
   } catch (const std::exception& error) {
     return fmt::format("an exception: {}", error.what());

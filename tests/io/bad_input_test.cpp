@@ -126,6 +126,13 @@ TEST(BadInput, ImpossibleSizesAreRefusedBeforeMemoryIsTaken) {
   expect_refused("a.hexex", "999999999999\n0 0 0\n", {"999999999999"});
 }
 
+// Found by mutated files: the sentence did not name the file.
+TEST(BadInput, TheNumberOfComponentsOfScalars) {
+  std::string text = VtkText().text();
+  text.replace(text.find("int 1\n"), 5, "int 0.5");
+  expect_refused("components.vtk", text, {"line 18", "\"0.5\" is no integer"});
+}
+
 TEST(BadInput, Coordinates) {
   VtkText file;
   file.points[4] = "1 nan 1";
@@ -204,6 +211,8 @@ TEST(BadInput, HexexFiles) {
   expect_refused("nan.hexex", with("1\n", "nan\n"), {"no finite number"});
   expect_refused("range.hexex", with("0 1 2 3", "0 1 2 4"), {"line 7", "vertex 4 does not exist"});
   expect_refused("twice.hexex", with("0 1 2 3", "0 1 2 2"), {"line 7", "tet 0 has a vertex twice"});
+  expect_refused("three.hexex", points + "3\n" + tets.substr(2) + tets.substr(2) + tets.substr(2),
+                 {"more than two tets", "0, 1, 2"});
   expect_refused("none.hexex", points + "0\n", {"no tetrahedra"});
   expect_refused("more.hexex", points + tets + "0 0 0\n7\n", {"goes on"});
   expect_refused("edge.hexex", points + tets + "0 1 0\n1 1\n", {"feature edge 0 (1, 1)"});
