@@ -18,6 +18,7 @@ using hex::Corner;
 using hex::EnergyShape;
 
 constexpr std::size_t grain = 64;
+constexpr int patience = 10;  // sweeps without gain that end the raising of the minimum
 
 // Which corners of a hex have local vertex k, and as which of their four points.
 struct CornerUse {
@@ -66,6 +67,7 @@ class Improver {
   Vec3 newton_direction(std::size_t v, std::vector<Corner>& patch, const Vec3& gradient,
                         const EnergyShape& shape) const;
   double regularisation() const;
+  double shortfall() const;
   void tell(const char* what, int round, int rounds) const {
     if (control_.progress) control_.progress(what, static_cast<double>(round) / rounds);
     if (control_.stop_requested && control_.stop_requested())
@@ -264,18 +266,34 @@ void Improver::smooth() {
   }
 }
 
+// How much the hexes below the aim miss it, the worse the more.
+double Improver::shortfall() const {
+  double sum = 0;
+  for (double q : quality_) sum += q < options_.good_enough ? std::pow(options_.good_enough - q, 2) : 0;
+  return sum;
+}
+
 void Improver::raise_minimum() {
   if (!(minimum_ > 0)) return;
   std::vector<Vec3> best = hexes_.points;
   double best_minimum = minimum_;
+  double best_shortfall = shortfall();
+  int since_best = 0;
   for (int round = 0; round < options_.max_rounds && minimum_ < options_.good_enough; ++round) {
-    activate(std::min(options_.good_enough, minimum_ + 0.25), 1);
+    activate(options_.good_enough, 1);
     sweep({4 + 12.0 * round / options_.max_rounds, options_.shape_weight, 0});
-    if (minimum_ > best_minimum) {
+    // A corner of the input can hold the minimum down; then the others below the aim decide.
+    const double lower = shortfall();
+    const bool better =
+        minimum_ > best_minimum + 1e-4 || (minimum_ > best_minimum - 1e-6 && lower < 0.999 * best_shortfall);
+    since_best = better ? 0 : since_best + 1;
+    if (better) {
       best_minimum = minimum_;
+      best_shortfall = lower;
       best = hexes_.points;
     }
     tell("raising the scaled Jacobian", round, options_.max_rounds);
+    if (since_best >= patience) break;
   }
   hexes_.points = std::move(best);
 }
