@@ -107,7 +107,7 @@ void Improver::colour_vertices() {
   std::vector<int> colour(n, -1);
   std::vector<std::size_t> taken_by;  // per colour: the last vertex that has a neighbour of it
   for (std::size_t v = 0; v < n; ++v) {
-    if (places_.kind(v) == hex::VertexPlaces::Kind::fixed) continue;
+    if (places_.kind(v) == hex::VertexPlaces::Kind::fixed || first_[v] == first_[v + 1]) continue;
     for (std::size_t s = first_[v]; s < first_[v + 1]; ++s)
       for (int w : hexes_.hexes[static_cast<std::size_t>(slots_[s] / 8)])
         if (colour[static_cast<std::size_t>(w)] >= 0)
