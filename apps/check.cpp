@@ -5,11 +5,15 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "hexfield/field/matchings.hpp"
+#include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/hex/check.hpp"
 #include "hexfield/io/checkpoint.hpp"
 #include "hexfield/io/checkpoint_values.hpp"
 #include "hexfield/io/hex_io.hpp"
 #include "hexfield/io/tet_io.hpp"
+#include "hexfield/map/verify.hpp"
+#include "hexfield/mesh/features.hpp"
 
 namespace hexfield::apps {
 namespace {
@@ -28,21 +32,28 @@ std::size_t print_all(const std::vector<Violation>& violations) {
 /// Reads every stage back and checks its value.
 std::size_t check_checkpoint(const Checkpoint& checkpoint) {
   std::size_t defects = 0;
-  std::size_t tets = 0;
+  FieldResult field;
   for (const StageEntry& stage : checkpoint.stages()) {
     const NamedArrays arrays = checkpoint.load(stage.name);
     if (stage.name == "read") {
-      defects += print_all(check(unpack_tet_input(arrays).mesh));
+      const TetInput input = unpack_tet_input(arrays);
+      defects += print_all(check(input.mesh)) + print_all(check(input.mesh, input.features));
     } else if (stage.name == "field") {
-      const FieldResult field = unpack_field(arrays);
-      tets = field.mesh.num_tets();
-      defects += print_all(check(field.mesh));
+      field = unpack_field(arrays);
+      defects += print_all(check(field.mesh)) + print_all(check(field.mesh, field.features));
+      const auto graph = singularity_graph(field.mesh, field.features, field.field, field.codes);
+      defects +=
+          print_all(check(field.mesh, field.field)) + print_all(check(field.mesh, field.field, field.codes, graph));
     } else if (stage.name == "seamless") {
-      unpack_seamless(arrays, tets);
+      unpack_seamless(arrays, field.mesh.num_tets());
     } else if (stage.name == "igm") {
-      unpack_igm(arrays, tets);
+      const IgmResult igm = unpack_igm(arrays, field.mesh.num_tets());
+      if (igm.report.valid() && igm.quantization_valid) {
+        defects += print_all(check_integer_grid(field.mesh, field.features, field.codes, igm.map));
+      }
     } else {
-      unpack_hex_mesh(arrays);
+      const HexMesh hexes = unpack_hex_mesh(arrays);
+      if (stage.name == "improve") defects += print_all(check(hexes));
     }
     fmt::print("stage {}: read back\n", stage.name);
   }
@@ -55,7 +66,8 @@ std::size_t check_hexes(const HexMesh& mesh, const std::string& against) {
   fmt::print("{} hexes, scaled Jacobian from {:.4f}, mean {:.4f}\n", mesh.hexes.size(), measured.min, measured.mean);
   std::size_t defects = print_all(check(mesh));
   if (!against.empty()) {
-    const TetInput tets = read_tet_mesh(against);
+    TetInput tets = read_tet_mesh(against);
+    complete_features(tets.mesh, tets.features);
     const HexAgainstTets compared = check_against(mesh, tets.mesh, tets.features);
     fmt::print("volume ratio {:.6f}; {} points, {} curves and {} surfaces wanted\n", compared.volume_ratio,
                compared.points.wanted, compared.curves.wanted, compared.surfaces.wanted);

@@ -67,8 +67,16 @@ void write_whole_file(const fs::path& file, const std::function<void(const fs::p
   fs::create_directory(scratch.path, failure);
   if (failure) throw cannot("write", file, failure.message());
   const fs::path fresh = scratch.path / file.filename();
-  write(fresh);
-  flush_to_disk(fresh);
+  try {
+    write(fresh);
+    flush_to_disk(fresh);
+  } catch (const Error& error) {
+    // The reader knows the file by its own name.
+    std::string sentence = error.sentence();
+    const std::size_t at = sentence.find(fresh.string());
+    if (at != std::string::npos) sentence.replace(at, fresh.string().size(), file.string());
+    throw Error(error.code(), sentence, error.ids(), error.places());
+  }
   fs::rename(fresh, file, failure);
   if (failure) throw cannot("write", file, failure.message());
   flush_to_disk(directory);

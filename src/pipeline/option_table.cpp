@@ -66,6 +66,7 @@ OptionTable::OptionTable(RunOptions& o) {
       {"field.max_singular_splits", "field", &o.field.max_singular_splits, 0},
       {"field.alignment_sweeps", "field", &o.field.alignment_sweeps, 0},
       {"field.max_smoothing_iterations", "field", &o.field.max_smoothing_iterations, 0},
+      {"field.max_tet_smoothing_iterations", "field", &o.field.max_tet_smoothing_iterations, 0},
       {"field.smoothing_tolerance", "field", &o.field.smoothing_tolerance, 0, 1},
       {"seamless.max_misalignment_degrees", "seamless", &o.seamless.max_misalignment_degrees, 0, 180},
       {"improve.max_rounds", "improve", &o.improve.max_rounds, 0},

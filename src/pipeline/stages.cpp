@@ -1,17 +1,26 @@
 #include "stages.hpp"
 
 #include <cmath>
+#include <iterator>
 
 #include "hexfield/base/error.hpp"
+#include "hexfield/field/matchings.hpp"
+#include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/hex/extract.hpp"
 #include "hexfield/hex/improve.hpp"
 #include "hexfield/io/checkpoint_values.hpp"
+#include "hexfield/map/verify.hpp"
 #include "hexfield/mesh/features.hpp"
 
 namespace hexfield {
 namespace {
 
 std::vector<Violation> no_violations(const RunState&) { return {}; }
+
+std::vector<Violation> joined(std::vector<Violation> a, std::vector<Violation> b) {
+  a.insert(a.end(), std::make_move_iterator(b.begin()), std::make_move_iterator(b.end()));
+  return a;
+}
 
 double volume(const TetMesh& mesh) {
   double sum = 0;
@@ -50,7 +59,9 @@ Stage read_stage() {
                                          {"edges", state.input.features.edges.size()},
                                          {"faces", state.input.features.faces.size()}};
   };
-  stage.check = [](const RunState& state) { return check(state.input.mesh); };
+  stage.check = [](const RunState& state) {
+    return joined(check(state.input.mesh), check(state.input.mesh, state.input.features));
+  };
   return stage;
 }
 
@@ -70,7 +81,12 @@ Stage field_stage() {
     state.input = {};
   };
   stage.judge = judge_field;
-  stage.check = [](const RunState& state) { return check(state.field.mesh); };
+  stage.check = [](const RunState& state) {
+    const FieldResult& f = state.field;
+    const SingularityGraph graph = singularity_graph(f.mesh, f.features, f.field, f.codes);
+    return joined(joined(check(f.mesh), check(f.mesh, f.features)),
+                  joined(check(f.mesh, f.field), check(f.mesh, f.field, f.codes, graph)));
+  };
   return stage;
 }
 
@@ -116,7 +132,11 @@ Stage igm_stage() {
     state.seamless.map = {};
   };
   stage.judge = judge_igm;
-  stage.check = no_violations;
+  stage.check = [](const RunState& state) {
+    const FieldResult& f = state.field;
+    const bool valid = state.igm.report.valid() && state.igm.quantization_valid;
+    return valid ? check_integer_grid(f.mesh, f.features, f.codes, state.igm.map) : std::vector<Violation>();
+  };
   stage.iterations = [](const RunState& state) { return state.igm.newton_steps; };
   return stage;
 }

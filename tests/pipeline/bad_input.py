@@ -169,7 +169,7 @@ def full_disk(good):
     wrong = [] if done.returncode == 3 else [f"exit code {done.returncode} instead of 3"]
     if not any(s.startswith("hexfield: ") and "No space left" in s for s in done.stderr.splitlines()):
         wrong.append(f"no sentence on the full disk: {done.stderr}")
-    if "run.h5" in done.stderr.splitlines() or "writing" in done.stderr:
+    if any(name == "run.h5" or name.endswith(".writing") for name in done.stderr.splitlines()):
         wrong.append(f"half-written files are left: {done.stderr}")
     return [f"full disk: {w}" for w in wrong]
 
@@ -209,7 +209,8 @@ def main():
         for found in group:
             cases += 1
             wrong += found
-    print("\n".join(wrong))
+            for line in found:
+                print(line, flush=True)
     print(f"{cases} cases on {RANKS} ranks, {len(wrong)} wrong")
     sys.exit(1 if wrong else 0)
 
