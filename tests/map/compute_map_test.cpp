@@ -139,3 +139,38 @@ TEST(MapStages, StopAfterAStepWhenAsked) {
   }
   EXPECT_EQ(offers, 2);
 }
+
+// A run that was stopped anywhere and goes on from its last iterate ends at the map of an undisturbed run.
+TEST(MapStages, GoOnFromAnIterate) {
+  const MappedMesh m = valence_prism(5, 2, 2);
+  const Outcome undisturbed = run(m, {}, 100);
+  for (int limit : {1, 3, 6}) {
+    std::map<std::string, std::vector<double>> saved;
+    int offers = 0;
+    Control control;
+    control.offer_iterate = [&](const std::string& name, const std::function<std::vector<double>()>& gather) {
+      saved[name] = gather();
+      ++offers;
+    };
+    control.stop_requested = [&] { return offers >= limit; };
+    bool stopped = false;
+    try {
+      run(m, control, 100);
+    } catch (const Error& error) {
+      stopped = error.code() == ExitCode::stopped;
+    }
+    EXPECT_TRUE(stopped);
+    control.stop_requested = nullptr;
+    control.restore_iterate = [&](const std::string& name) -> std::optional<std::vector<double>> {
+      const auto found = saved.find(name);
+      if (found == saved.end()) return std::nullopt;
+      return found->second;
+    };
+    const Outcome resumed = run(m, control, 100);
+    EXPECT_TRUE(resumed.igm.report.valid());
+    ASSERT_EQ(resumed.igm.map.uvw.size(), undisturbed.igm.map.uvw.size());
+    for (std::size_t i = 0; i < resumed.igm.map.uvw.size(); ++i)
+      for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_LT((resumed.igm.map.uvw[i][k] - undisturbed.igm.map.uvw[i][k]).norm(), 1e-7);
+  }
+}
