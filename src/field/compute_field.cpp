@@ -61,8 +61,12 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
                           const Control& control) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
+  auto now_at = [&](const char* step) {
+    if (control.progress) control.progress(step, -1);
+  };
   FieldResult result;
   RootGraph graph;
+  now_at("splitting for features");
   std::vector<NodeConstraint> constraints;
   agree(comm, [&] {
     if (rank != 0) return;
@@ -74,11 +78,13 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
     graph = vertex_graph(result.mesh);
     constraints = vertex_constraints(result.mesh, result.features, options.normal_deviation_degrees);
   });
+  now_at("smoothing the vertex field");
   SmoothingOptions smoothing;
   smoothing.max_iterations = options.max_smoothing_iterations;
   smoothing.tolerance = options.smoothing_tolerance;
   SmoothingReport report;
   const auto vertex_frames = smooth_octahedral_field(comm, graph, constraints, nullptr, smoothing, report, control);
+  now_at("refining singular faces");
   agree(comm, [&] {
     if (rank != 0) return;
     std::vector<harmonics::Sh> sh = harmonics_of(vertex_frames);
@@ -91,6 +97,7 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
     graph = tet_graph(result.mesh);
     constraints = tet_constraints(result.mesh, result.features);
   });
+  now_at("smoothing the tet field");
   // The smoothest field of the tets themselves: the vertex field loses its finest scale in the transfer.
   smoothing.max_iterations = options.max_tet_smoothing_iterations;
   SmoothingReport tet_report;
@@ -101,11 +108,13 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
     compute_matchings(result.mesh, result.field);
     comb(result.mesh, result.field);
   });
+  now_at("aligning to features");
   const DistributedMesh distributed(comm, result.mesh);
   AlignOptions align;
   align.sweeps = options.alignment_sweeps;
   align_field(distributed, result.field, rank == 0 ? feature_constraints(result) : std::vector<AxisConstraint>(),
               align);
+  now_at("finding singular edges");
   agree(comm, [&] {
     if (rank != 0) return;
     compute_matchings(result.mesh, result.field);
@@ -113,6 +122,7 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
     unify_codes(result.mesh, result.field, result.codes);
     isolate(result);
   });
+  now_at("aligning to singular edges");
   align_to_codes(comm, result, options);
   return result;
 }

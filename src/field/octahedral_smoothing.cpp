@@ -210,8 +210,17 @@ double Smoother::step(Frames& frames, double old_energy, ReducedLaplacian& hessi
     Frames next = turned(frames, turns, t);
     const double new_energy = energy(next);
     if (new_energy > old_energy - 1e-4 * t * slope) continue;
+    // Near singular arcs the Gauss-Newton model is too stiff: longer steps go on paying there.
+    double best = new_energy;
+    for (double longer = 2 * t; t == 1 && longer <= 8; longer *= 2) {
+      Frames further = turned(frames, turns, longer);
+      const double reached = energy(further);
+      if (reached >= best * (1 - 1e-9)) break;
+      best = reached;
+      next = std::move(further);
+    }
     frames = std::move(next);
-    return new_energy;
+    return best;
   }
   return old_energy;
 }

@@ -10,23 +10,23 @@ namespace hexfield {
 RootGraph tet_graph(const TetMesh& mesh) {
   RootGraph graph;
   graph.offsets.reserve(mesh.num_tets() + 1);
+  std::vector<std::pair<std::int32_t, double>> row;
   for (std::size_t i = 0; i < mesh.num_tets(); ++i) {
     const TetId t(static_cast<std::int64_t>(i));
     require(mesh.alive(t), "The graph of tets needs a mesh without tombstones.");
-    std::array<std::pair<std::int32_t, double>, 4> row;
-    std::size_t n = 0;
+    row.clear();
     for (int f = 0; f < 4; ++f) {
       const HalfFaceId h(t, f);
       const HalfFaceId o = mesh.opposite_half_face(h);
       if (!o.valid()) continue;
       const auto v = mesh.face_vertices(h);
       const double area = (mesh.point(v[1]) - mesh.point(v[0])).cross(mesh.point(v[2]) - mesh.point(v[0])).norm() / 2;
-      row[n++] = {o.tet().value, area / (centroid(mesh, t) - centroid(mesh, o.tet())).norm()};
+      row.emplace_back(o.tet().value, area / (centroid(mesh, t) - centroid(mesh, o.tet())).norm());
     }
-    std::sort(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
-    for (std::size_t k = 0; k < n; ++k) {
-      graph.neighbours.push_back(row[k].first);
-      graph.weights.push_back(row[k].second);
+    std::sort(row.begin(), row.end());
+    for (const auto& [tet, weight] : row) {
+      graph.neighbours.push_back(tet);
+      graph.weights.push_back(weight);
     }
     graph.offsets.push_back(static_cast<std::int64_t>(graph.neighbours.size()));
   }

@@ -17,7 +17,7 @@ struct FieldOptions {
   int max_singular_splits = 20000;
   int alignment_sweeps = 100;             ///< sweeps of Algorithm 1 before and after matchings are fixed
   int max_smoothing_iterations = 100;     ///< nonlinear iterations of the octahedral field
-  int max_tet_smoothing_iterations = 20;  ///< nonlinear iterations of the field per tet, after the transfer
+  int max_tet_smoothing_iterations = 30;  ///< nonlinear iterations of the field per tet, after the transfer
   double smoothing_tolerance = 1e-6;      ///< relative decrease of the smoothness energy that ends them
 };
 
