@@ -115,14 +115,13 @@ File::~File() {
 }
 
 std::span<std::byte> File::image() {
-  hsize_t size = 0;
   void* handle = nullptr;
-  if (H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0 || H5Fget_filesize(id_, &size) < 0 ||
-      H5Fget_vfd_handle(id_, H5P_DEFAULT, &handle) < 0 || handle == nullptr) {
+  // The size that is used, behind the user block; what the driver holds is larger.
+  const ssize_t used = H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(id_, nullptr, 0);
+  if (used < 0 || H5Fget_vfd_handle(id_, H5P_DEFAULT, &handle) < 0 || handle == nullptr)
     fail("cannot be made in memory");
-  }
   // The handle of the memory driver is the address of its pointer to the bytes.
-  return {*static_cast<std::byte**>(handle), static_cast<std::size_t>(size)};
+  return {*static_cast<std::byte**>(handle), static_cast<std::size_t>(used) + user_block_size};
 }
 
 void File::make_group(const std::string& group) {
