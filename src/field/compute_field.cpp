@@ -85,6 +85,8 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
   SmoothingReport report;
   const auto vertex_frames = smooth_octahedral_field(comm, graph, constraints, nullptr, smoothing, report, control);
   now_at("refining singular faces");
+  std::vector<TetId> near;
+  std::vector<Quaternion> near_frames;
   agree(comm, [&] {
     if (rank != 0) return;
     std::vector<harmonics::Sh> sh = harmonics_of(vertex_frames);
@@ -94,17 +96,20 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
     split_for_features(result.mesh, result.features, {&follow, &follow_sh});
     compact(result.mesh, {&follow, &follow_sh});
     result.field.frames = tet_frames(result.mesh, sh);
-    graph = tet_graph(result.mesh);
-    constraints = tet_constraints(result.mesh, result.features);
+    compute_matchings(result.mesh, result.field);
+    near = tets_near_singularities(result.mesh, result.field, options.tet_smoothing_layers);
+    graph = tet_graph(result.mesh, near);
+    constraints = tet_constraints(result.mesh, result.features, result.field, near);
+    for (TetId t : near) near_frames.push_back(result.field.frames[t.index()]);
   });
   now_at("smoothing the tet field");
-  // The smoothest field of the tets themselves: the vertex field loses its finest scale in the transfer.
+  // The vertex field loses its finest scale in the transfer, which matters where it is singular only.
   smoothing.max_iterations = options.max_tet_smoothing_iterations;
   SmoothingReport tet_report;
-  result.field.frames =
-      smooth_octahedral_field(comm, graph, constraints, &result.field.frames, smoothing, tet_report, control);
+  near_frames = smooth_octahedral_field(comm, graph, constraints, &near_frames, smoothing, tet_report, control);
   agree(comm, [&] {
     if (rank != 0) return;
+    for (std::size_t k = 0; k < near.size(); ++k) result.field.frames[near[k].index()] = near_frames[k];
     compute_matchings(result.mesh, result.field);
     comb(result.mesh, result.field);
   });

@@ -18,7 +18,8 @@ struct FieldOptions {
   int alignment_sweeps = 100;             ///< sweeps of Algorithm 1 before and after matchings are fixed
   int max_smoothing_iterations = 100;     ///< nonlinear iterations of the octahedral field
   int max_tet_smoothing_iterations = 30;  ///< nonlinear iterations of the field per tet, after the transfer
-  double smoothing_tolerance = 1e-6;      ///< relative decrease of the smoothness energy that ends them
+  int tet_smoothing_layers = 8;           ///< rings around singular edges where the field per tet is smoothed
+  double smoothing_tolerance = 1e-4;      ///< relative decrease of the smoothness energy that ends them
 };
 
 /// Everything stage 2 makes; complete on rank 0, empty on the others.
