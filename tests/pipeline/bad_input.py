@@ -164,12 +164,14 @@ def full_disk(good):
         return []
     # The namespace ends with the run: what the program left is listed inside it.
     line = program.command(PROGRAM, RANKS, ["run", good, "-o", inside / "out", "--to", "field"])
-    list_it = f'"$@"; code=$?; ls -a "{inside}/out" >&2; exit $code'
+    checkpoint = f"{inside}/out/run.h5"
+    check_it = f'[ ! -e "{checkpoint}" ] || "{PROGRAM}" check "{checkpoint}" > /dev/null || echo torn >&2'
+    list_it = f'"$@"; code=$?; ls -a "{inside}/out" >&2; {check_it}; exit $code'
     done = subprocess.run([*alone, "sh", "-c", list_it, "sh", *map(str, line)], capture_output=True, text=True, timeout=120)
     wrong = [] if done.returncode == 3 else [f"exit code {done.returncode} instead of 3"]
     if not any(s.startswith("hexfield: ") and "No space left" in s for s in done.stderr.splitlines()):
         wrong.append(f"no sentence on the full disk: {done.stderr}")
-    if any(name == "run.h5" or name.endswith(".writing") for name in done.stderr.splitlines()):
+    if any(name in ("torn", "singularities.vtk") or name.endswith(".writing") for name in done.stderr.splitlines()):
         wrong.append(f"half-written files are left: {done.stderr}")
     return [f"full disk: {w}" for w in wrong]
 
