@@ -27,13 +27,13 @@ def ranks_of(process):
     """The processes that run the program itself; once its handlers are in place."""
     name = PROGRAM.name.encode()
     found = []
-    for pid in program.ranks_of(process):
+    for pid in {process.pid, *program.ranks_of(process)}:
         try:
             if name in Path(f"/proc/{pid}/comm").read_bytes():
                 found.append(pid)
         except OSError:
             pass
-    return found
+    return sorted(found)
 
 
 def stop_one_rank(mesh, number):
