@@ -11,6 +11,21 @@ if(HEXFIELD_SANITIZE)
   target_link_options(hexfield_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# The standard and Eigen headers that most files include, parsed once for all modules. Compiler caches do
+# without: they would miss on every file.
+option(HEXFIELD_PCH "Precompile common headers" ON)
+function(hexfield_precompile target source)
+  if(NOT HEXFIELD_PCH OR CMAKE_CXX_COMPILER_LAUNCHER)
+    return()
+  endif()
+  if(target STREQUAL source)
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <algorithm> <array>
+      <functional> <map> <optional> <span> <string> <vector>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${source})
+  endif()
+endfunction()
+
 # hexfield_module(NAME [DEPS modules...] [LIBS public libraries...] [PRIVATE_LIBS libraries...])
 # Builds src/NAME/*.cpp into hexfield::NAME, which sees only the headers of its DEPS.
 function(hexfield_module name)
@@ -32,5 +47,6 @@ function(hexfield_module name)
     endif()
     target_link_libraries(hexfield_${name} PUBLIC hexfield::${dep})
   endforeach()
+  hexfield_precompile(hexfield_${name} hexfield_base)
   set_property(GLOBAL APPEND PROPERTY HEXFIELD_MODULES ${name})
 endfunction()
