@@ -95,18 +95,17 @@ write_configuration
 trap stop_daemons EXIT
 start_daemons
 part="$top/tests/data/bracket.msh"
-options=(--target-hexes "${HEXFIELD_SLURM_HEXES:-100000}")
+options=(--target-hexes "${HEXFIELD_SLURM_HEXES:-300000}")
 export HEXFIELD=$hexfield
 . "$top/jobs/mpi_environment.sh"
 
 # The limit of Slurm is a whole minute at least, and the warning comes some seconds after it is due.
 job=$(sbatch --parsable --ntasks=2 --time=1 --signal=B:USR1@45 --output="$scratch/job.log" \
   "$top/jobs/hexfield.sbatch" "$part" "$scratch/warned" "${options[@]}")
-longer=no
 for _ in $(seq 300); do
   state=$(job_field "$job" JobState)
-  if [ "$longer" = no ] && [ "$(job_field "$job" Restarts)" -ge 1 ]; then # the second start gets the time it needs
-    scontrol update jobid="$job" TimeLimit=10 && longer=yes
+  if [ "$(job_field "$job" Restarts)" -ge 1 ] && [ "$(job_field "$job" TimeLimit)" = 00:01:00 ]; then
+    scontrol update jobid="$job" TimeLimit=10 || true # the second start gets the time it needs
   fi
   case "$state" in COMPLETED | FAILED | TIMEOUT | CANCELLED | NODE_FAIL) break ;; esac
   sleep 2
