@@ -11,6 +11,8 @@
 #include "hexfield/io/checkpoint_values.hpp"
 #include "hexfield/map/verify.hpp"
 #include "hexfield/mesh/features.hpp"
+#include "hexfield/mesh/input_check.hpp"
+#include "hexfield/mesh/manifold.hpp"
 
 namespace hexfield {
 namespace {
@@ -47,6 +49,8 @@ Stage read_stage() {
       progress.report("reading " + state.options.input.string(), -1);
       state.input = read_tet_mesh(state.options.input);
       for (const std::string& note : state.input.notes) state.log.warning(note);
+      // Splits and walks see one fan of a non-manifold edge only, so nothing after this stage could be right.
+      require_valid_input(state.options.input.string(), find_non_manifold(state.input.mesh));
       complete_features(state.input.mesh, state.input.features, state.options.feature_angle);
     });
   };

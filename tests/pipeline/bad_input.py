@@ -51,6 +51,19 @@ def hanging():
     return TetFile(points, cells).text().encode()
 
 
+def touching():
+    """Two boxes that share one edge only."""
+    first, second = box(1, 1, 1, tags=False), box(1, 1, 1, tags=False, origin=(1.0, 1.0, 0.0))
+    same = {p: v for v, p in enumerate(first.points)}
+    points, index = list(first.points), []
+    for p in second.points:
+        index.append(same.get(p, len(points)))
+        if p not in same:
+            points.append(p)
+    cells = first.cells + [(t, tuple(index[v] for v in vs), colour) for t, vs, colour in second.cells]
+    return TetFile(points, cells).text().encode()
+
+
 GOOD = box(2, 2, 1).text().encode()
 FLAT = (0.0, 0.0, 0.0)
 MESHES = [  # name, bytes of the file (None: there is no file), words of the sentence
@@ -76,6 +89,7 @@ MESHES = [  # name, bytes of the file (None: there is no file), words of the sen
     ("face_in_three", spoiled(lambda mesh: (mesh.points.append((0.2, 0.5, 3.0)), mesh.cells.append(
         (10, (0, 1, 4, 18), 1)))), []),
     ("hanging", hanging(), []),
+    ("touching_in_an_edge", touching(), ["("]),
     ("line_off", extra_cell((3, (0, 17), 9)), ["("]),
     ("triangle_off", extra_cell((5, (0, 2, 17), 9)), ["("]),
     ("no_tets", with_tets(lambda tets: []), []),
