@@ -49,18 +49,50 @@ void add_edge(const TetMesh& mesh, const FrameField& field, const EdgeRing& ring
     found.push_back({ring.tets[k], labels[k], e, kind, HalfFaceId(), edge});
 }
 
-void add_faces(const TetMesh& mesh, const Features& features, const FrameField& field,
+void add_faces(const TetMesh& mesh, const Features& features, const FrameField& field, TetId t,
                std::vector<AxisConstraint>& found) {
-  for (std::size_t i = 0; i < mesh.num_tets(); ++i) {
-    const TetId t(static_cast<std::int64_t>(i));
-    if (!mesh.alive(t)) continue;
-    for (int f = 0; f < 4; ++f) {
-      const HalfFaceId h(t, f);
-      if (!mesh.is_boundary(h) && features.faces.count(mesh.key(h)) == 0) continue;
-      const Vec3 n = outward_normal(mesh, h);
-      found.push_back({t, closest_label(field.frames[i], n), n, AxisConstraint::Kind::feature_face, h});
-    }
+  for (int f = 0; f < 4; ++f) {
+    const HalfFaceId h(t, f);
+    if (!mesh.is_boundary(h) && features.faces.count(mesh.key(h)) == 0) continue;
+    const Vec3 n = outward_normal(mesh, h);
+    found.push_back({t, closest_label(field.frames[t.index()], n), n, AxisConstraint::Kind::feature_face, h});
   }
+}
+
+void add_feature_edge(const TetMesh& mesh, const Features& features, const FrameField& field, const EdgeKey& edge,
+                      TetId seed, std::vector<AxisConstraint>& found) {
+  const EdgeRing ring = edge_ring(mesh, seed, edge[0], edge[1]);
+  const Vec3 e = (mesh.point(edge[1]) - mesh.point(edge[0])).normalized();
+  add_edge(mesh, field, ring, edge, feature_edge_label(mesh, features, field, ring, e),
+           AxisConstraint::Kind::feature_edge, found);
+}
+
+void add_singular_edge(const TetMesh& mesh, const Features& features, const FrameField& field, const EdgeKey& edge,
+                       EdgeCode code, TetId seed, std::vector<AxisConstraint>& found) {
+  const EdgeRing ring = edge_ring(mesh, seed, edge[0], edge[1]);
+  const Vec3 e = (mesh.point(edge[1]) - mesh.point(edge[0])).normalized();
+  const Label label = ring.closed ? outgoing_label(mesh, field, ring, code, edge[0], edge[1])
+                                  : feature_edge_label(mesh, features, field, ring, e);
+  add_edge(mesh, field, ring, edge, label, AxisConstraint::Kind::singular_edge, found);
+}
+
+void order(std::vector<AxisConstraint>& found) {
+  std::stable_sort(found.begin(), found.end(),
+                   [](const AxisConstraint& a, const AxisConstraint& b) { return a.tet < b.tet; });
+}
+
+// The edges of the tets with one tet of each, ascending.
+std::vector<std::pair<EdgeKey, TetId>> edges_with_tets(const TetMesh& mesh, std::span<const TetId> tets) {
+  std::vector<std::pair<EdgeKey, TetId>> edges;
+  for (TetId t : tets) {
+    const auto& v = mesh.vertices(t);
+    for (const auto& e : tet_edge_vertices)
+      edges.emplace_back(edge_key(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]), t);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end(), [](const auto& x, const auto& y) { return x.first == y.first; }),
+              edges.end());
+  return edges;
 }
 
 }  // namespace
@@ -68,26 +100,35 @@ void add_faces(const TetMesh& mesh, const Features& features, const FrameField& 
 std::vector<AxisConstraint> collect_constraints(const TetMesh& mesh, const Features& features, const FrameField& field,
                                                 const EdgeCodes& codes) {
   std::vector<AxisConstraint> found;
-  add_faces(mesh, features, field, found);
-  for (const auto& entry : features.edges) {
-    const EdgeKey edge = entry.first;
-    const TetId seed = find_tet_with_edge(mesh, edge[0], edge[1]);
-    if (!seed.valid()) continue;
-    const EdgeRing ring = edge_ring(mesh, seed, edge[0], edge[1]);
-    const Vec3 e = (mesh.point(edge[1]) - mesh.point(edge[0])).normalized();
-    add_edge(mesh, field, ring, edge, feature_edge_label(mesh, features, field, ring, e),
-             AxisConstraint::Kind::feature_edge, found);
-  }
+  for (std::size_t i = 0; i < mesh.num_tets(); ++i)
+    if (const TetId t(static_cast<std::int64_t>(i)); mesh.alive(t)) add_faces(mesh, features, field, t, found);
+  for (const auto& entry : features.edges)
+    if (const TetId seed = find_tet_with_edge(mesh, entry.first[0], entry.first[1]); seed.valid())
+      add_feature_edge(mesh, features, field, entry.first, seed, found);
   for (const auto& [edge, code] : codes) {
     if (features.edges.count(edge) != 0 || code == compound_code) continue;
-    const EdgeRing ring = edge_ring(mesh, find_tet_with_edge(mesh, edge[0], edge[1]), edge[0], edge[1]);
-    const Vec3 e = (mesh.point(edge[1]) - mesh.point(edge[0])).normalized();
-    const Label label = ring.closed ? outgoing_label(mesh, field, ring, code, edge[0], edge[1])
-                                    : feature_edge_label(mesh, features, field, ring, e);
-    add_edge(mesh, field, ring, edge, label, AxisConstraint::Kind::singular_edge, found);
+    add_singular_edge(mesh, features, field, edge, code, find_tet_with_edge(mesh, edge[0], edge[1]), found);
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const AxisConstraint& a, const AxisConstraint& b) { return a.tet < b.tet; });
+  order(found);
+  return found;
+}
+
+std::vector<AxisConstraint> collect_constraints_of(const TetMesh& mesh, const Features& features,
+                                                   const FrameField& field, const EdgeCodes& codes,
+                                                   std::span<const TetId> tets, SingularSign sign) {
+  std::vector<AxisConstraint> found;
+  for (TetId t : tets) add_faces(mesh, features, field, t, found);
+  const auto edges = edges_with_tets(mesh, tets);
+  for (const auto& [edge, tet] : edges)
+    if (features.edges.count(edge) != 0) add_feature_edge(mesh, features, field, edge, tet, found);
+  for (const auto& [edge, tet] : edges) {
+    const auto code = codes.find(edge);
+    if (code == codes.end() || code->second == compound_code || features.edges.count(edge) != 0) continue;
+    const bool geometry = sign == SingularSign::by_geometry;
+    add_singular_edge(mesh, features, field, edge, geometry ? undetermined_code : code->second, tet, found);
+  }
+  std::erase_if(found, [&](const AxisConstraint& c) { return !std::binary_search(tets.begin(), tets.end(), c.tet); });
+  order(found);
   return found;
 }
 

@@ -1,4 +1,4 @@
-#include "node_classes.hpp"
+#include "hexfield/field/singularity_graph.hpp"
 
 #include <algorithm>
 #include <array>

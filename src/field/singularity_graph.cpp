@@ -6,7 +6,6 @@
 #include <set>
 
 #include "hexfield/field/edge_codes.hpp"
-#include "node_classes.hpp"
 
 namespace hexfield {
 namespace {

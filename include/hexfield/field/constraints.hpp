@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "hexfield/field/frame_field.hpp"
@@ -17,5 +18,17 @@ namespace hexfield {
 /// feature and singular is listed once, as feature edge. Not collective.
 std::vector<AxisConstraint> collect_constraints(const TetMesh& mesh, const Features& features, const FrameField& field,
                                                 const EdgeCodes& codes);
+
+/// Where the sign of the axis of a singular edge comes from.
+enum class SingularSign {
+  by_code,      ///< the outgoing label: fixed by monodromy and code
+  by_geometry,  ///< the sign that turns the frames least; codes may follow later (spec-lmff section 4)
+};
+
+/// The constraints of these tets (ascending) only, at the cost of these tets. Edges are taken when one of the tets
+/// has them; by_geometry leaves the codes out of the choice of signs. Not collective.
+std::vector<AxisConstraint> collect_constraints_of(const TetMesh& mesh, const Features& features,
+                                                   const FrameField& field, const EdgeCodes& codes,
+                                                   std::span<const TetId> tets, SingularSign sign);
 
 }  // namespace hexfield

@@ -38,6 +38,10 @@ struct SingularNode {
   EdgeCounts counts;
 };
 
+/// Kind of a vertex from the codes of the singular edges at it: all of them, each once. Not collective.
+SingularNode classify_vertex(const TetMesh& mesh, const Features& features, const FrameField& field,
+                             const EdgeCodes& codes, VertexId v, const std::vector<EdgeKey>& edges);
+
 /// The singular edges of a field as arcs and nodes, ordered by vertex ids.
 struct SingularityGraph {
   std::vector<SingularArc> arcs;

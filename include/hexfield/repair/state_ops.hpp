@@ -1,0 +1,76 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hexfield/field/align_field.hpp"
+#include "hexfield/field/constraints.hpp"
+#include "hexfield/mesh/edit.hpp"
+#include "hexfield/repair/repair_state.hpp"
+
+/// What every operation of the repair is made of: splits that all values of a RepairState follow, changes of
+/// matchings on both sides of a face, codes and frames brought up to date on a few edges or tets. All of it costs
+/// what the named edges or tets cost, never the whole mesh. Nothing here is collective.
+namespace hexfield {
+
+/// Lets everything in a RepairState follow splits: features, frames and matchings, codes, pairs, kept edges
+/// and target lengths (mean of the parents).
+class StateAttributes {
+ public:
+  explicit StateAttributes(RepairState& state);
+  const std::vector<MeshAttribute*>& all() const { return all_; }
+
+ private:
+  class RepairValues : public MeshAttribute {
+   public:
+    explicit RepairValues(RepairState& state) : state_(state) {}
+    void on_split(const TetMesh& mesh, const SplitRecord& record) override;
+    void on_compact(const std::vector<TetId>&) override {}
+
+   private:
+    RepairState& state_;
+  };
+  FeatureAttribute features_;
+  FieldAttribute field_;
+  RepairValues values_;
+  std::vector<MeshAttribute*> all_;
+};
+
+/// The splits of mesh/edit.hpp on a whole state. The new vertex is returned.
+VertexId split_edge(RepairState& state, VertexId a, VertexId b);
+VertexId split_face(RepairState& state, HalfFaceId h);
+VertexId split_tet(RepairState& state, TetId t);
+/// Removes tombstones of tets.
+void compact(RepairState& state);
+
+/// Sets the matching across h in the chart of h.tet(), and its inverse on the other side. h is an inner face.
+void set_matching(RepairState& state, HalfFaceId h, octahedral::Rotation matching);
+
+/// A boundary face or a tagged one.
+bool is_feature_face(const RepairState& state, HalfFaceId h);
+/// A feature edge, or one whose code is not zero.
+bool is_special(const RepairState& state, const EdgeKey& edge);
+EdgeCode code_of(const RepairState& state, const EdgeKey& edge);
+bool on_boundary(const TetMesh& mesh, VertexId v);
+
+/// The edges of these tets, ascending.
+std::vector<EdgeKey> edges_of(const TetMesh& mesh, std::span<const TetId> tets);
+/// The edges at v, ascending by their other end.
+std::vector<EdgeKey> edges_at(const TetMesh& mesh, VertexId v);
+/// Those with a code.
+std::vector<EdgeKey> singular_edges_at(const RepairState& state, VertexId v);
+/// Ring of a -> b from a tet found at a.
+EdgeRing ring_of(const TetMesh& mesh, VertexId a, VertexId b);
+
+/// Computes the codes of these edges again from frames and matchings; edges that are gone lose theirs.
+void update_codes(RepairState& state, std::span<const EdgeKey> edges);
+
+/// Algorithm 1 on these tets only (spec-lmff section 4), aligned to features and singular edges; the frames of
+/// other tets are boundary values. `sign` says how the axes of singular edges get their sign.
+AlignReport smooth(RepairState& state, std::span<const TetId> tets, int sweeps,
+                   SingularSign sign = SingularSign::by_geometry);
+
+/// Everything that must always hold: the checks of mesh, features, field and graph, and sizes.
+std::vector<Violation> check(const RepairState& state);
+
+}  // namespace hexfield

@@ -1,0 +1,153 @@
+#include "hexfield/repair/state_ops.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "hexfield/field/edge_codes.hpp"
+#include "hexfield/field/matchings.hpp"
+#include "hexfield/field/singularity_graph.hpp"
+
+namespace hexfield {
+namespace {
+
+// Both halves of a split edge get what the whole one had in `values` (a map or a set of edges).
+template <class Container>
+void halve(Container& values, const EdgeKey& edge, VertexId middle) {
+  auto whole = values.extract(edge);
+  if (whole.empty()) return;
+  for (VertexId end : edge) {
+    if constexpr (requires { whole.mapped(); })
+      values[edge_key(end, middle)] = whole.mapped();
+    else
+      values.insert(edge_key(end, middle));
+  }
+}
+
+void append(std::vector<Violation>& all, std::vector<Violation> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+StateAttributes::StateAttributes(RepairState& state)
+    : features_(state.features), field_(state.field), values_(state), all_{&features_, &field_, &values_} {}
+
+void StateAttributes::RepairValues::on_split(const TetMesh&, const SplitRecord& record) {
+  double length = 0;
+  for (VertexId v : record.parents) length += state_.target_length[v.index()];
+  state_.target_length.push_back(length / static_cast<double>(record.parents.size()));
+  if (record.parents.size() != 2) return;
+  const EdgeKey edge = edge_key(record.parents[0], record.parents[1]);
+  halve(state_.codes, edge, record.new_vertex);
+  halve(state_.pairs, edge, record.new_vertex);
+  halve(state_.kept, edge, record.new_vertex);
+}
+
+VertexId split_edge(RepairState& state, VertexId a, VertexId b) {
+  return split_edge(state.mesh, a, b, StateAttributes(state).all());
+}
+
+VertexId split_face(RepairState& state, HalfFaceId h) {
+  return split_face(state.mesh, h, StateAttributes(state).all());
+}
+
+VertexId split_tet(RepairState& state, TetId t) { return split_tet(state.mesh, t, StateAttributes(state).all()); }
+
+void compact(RepairState& state) { compact(state.mesh, StateAttributes(state).all()); }
+
+void set_matching(RepairState& state, HalfFaceId h, octahedral::Rotation matching) {
+  const HalfFaceId o = state.mesh.opposite_half_face(h);
+  require(o.valid(), "A boundary face has no matching to set.");
+  state.field.matchings[h.tet().index()][static_cast<std::size_t>(h.local())] = matching;
+  state.field.matchings[o.tet().index()][static_cast<std::size_t>(o.local())] = octahedral::inverse(matching);
+}
+
+bool is_feature_face(const RepairState& state, HalfFaceId h) {
+  return state.mesh.is_boundary(h) || state.features.faces.contains(state.mesh.key(h));
+}
+
+bool is_special(const RepairState& state, const EdgeKey& edge) {
+  return state.codes.contains(edge) || state.features.edges.contains(edge);
+}
+
+EdgeCode code_of(const RepairState& state, const EdgeKey& edge) {
+  const auto found = state.codes.find(edge);
+  return found == state.codes.end() ? 0 : found->second;
+}
+
+bool on_boundary(const TetMesh& mesh, VertexId v) {
+  for (TetId t : vertex_star(mesh, v))
+    for (int f = 0; f < 4; ++f)
+      if (mesh.vertices(t)[static_cast<std::size_t>(f)] != v && mesh.is_boundary(HalfFaceId(t, f))) return true;
+  return false;
+}
+
+std::vector<EdgeKey> edges_of(const TetMesh& mesh, std::span<const TetId> tets) {
+  std::vector<EdgeKey> edges;
+  for (TetId t : tets) {
+    const auto& v = mesh.vertices(t);
+    for (const auto& e : tet_edge_vertices)
+      edges.push_back(edge_key(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]));
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+std::vector<EdgeKey> edges_at(const TetMesh& mesh, VertexId v) {
+  std::vector<VertexId> ends;
+  for (TetId t : vertex_star(mesh, v))
+    for (VertexId w : mesh.vertices(t))
+      if (w != v) ends.push_back(w);
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<EdgeKey> edges;
+  for (VertexId w : ends) edges.push_back(edge_key(v, w));
+  return edges;
+}
+
+std::vector<EdgeKey> singular_edges_at(const RepairState& state, VertexId v) {
+  std::vector<EdgeKey> edges = edges_at(state.mesh, v);
+  std::erase_if(edges, [&](const EdgeKey& e) { return !state.codes.contains(e); });
+  return edges;
+}
+
+EdgeRing ring_of(const TetMesh& mesh, VertexId a, VertexId b) {
+  return edge_ring(mesh, find_tet_with_edge(mesh, a, b), a, b);
+}
+
+void update_codes(RepairState& state, std::span<const EdgeKey> edges) {
+  for (const EdgeKey& e : edges) {
+    const TetId seed = find_tet_with_edge(state.mesh, e[0], e[1]);
+    EdgeCode code = 0;
+    if (seed.valid())
+      code = edge_code(state.mesh, state.features, state.field, edge_ring(state.mesh, seed, e[0], e[1]), e[0], e[1]);
+    if (code == 0)
+      state.codes.erase(e);
+    else
+      state.codes[e] = code;
+  }
+}
+
+AlignReport smooth(RepairState& state, std::span<const TetId> tets, int sweeps, SingularSign sign) {
+  std::vector<TetId> ordered(tets.begin(), tets.end());
+  std::sort(ordered.begin(), ordered.end());
+  const auto constraints = collect_constraints_of(state.mesh, state.features, state.field, state.codes, ordered, sign);
+  AlignOptions options;
+  options.sweeps = sweeps;
+  return align_submesh(state.mesh, state.field, constraints, ordered, options);
+}
+
+std::vector<Violation> check(const RepairState& state) {
+  std::vector<Violation> all = check(state.mesh);
+  append(all, check(state.mesh, state.features));
+  append(all, check(state.mesh, state.field));
+  if (!all.empty()) return all;
+  const SingularityGraph graph = singularity_graph(state.mesh, state.features, state.field, state.codes);
+  append(all, check(state.mesh, state.field, state.codes, graph));
+  if (state.target_length.size() != state.mesh.num_vertices())
+    all.push_back({"The target lengths are not one per vertex.", {}, {}});
+  return all;
+}
+
+}  // namespace hexfield
