@@ -162,7 +162,7 @@ TEST(CollapseSwap, HundredsOfRandomEditsKeepMeshAndFeatures) {
   FeatureAttribute attribute(features);
   std::mt19937 random(11);
   Counts counts;
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < 60; ++round) {
     for (int i = 0; i < 100; ++i) random_edit(mesh, features, random, {&attribute}, counts);
     ASSERT_TRUE(check(mesh).empty());
     ASSERT_TRUE(check(mesh, features).empty()) << check(mesh, features)[0].sentence;
