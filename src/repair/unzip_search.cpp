@@ -27,12 +27,7 @@ class UnzipSearch {
  public:
   UnzipSearch(const RepairState& state, std::span<const UnzipSeed> seeds, const UnzipPartners& partners,
               const std::set<FaceKey>& blocked, const std::set<VertexId>& consumed, const UnzipSearchOptions& options)
-      : state_(state),
-        seeds_(seeds),
-        partners_(partners),
-        blocked_(blocked),
-        consumed_(consumed),
-        options_(options) {}
+      : state_(state), seeds_(seeds), partners_(partners), blocked_(blocked), consumed_(consumed), options_(options) {}
 
   std::optional<UnzipPath> run() {
     for (std::size_t i = 0; i < seeds_.size(); ++i) add_seed(i);
@@ -109,9 +104,8 @@ class UnzipSearch {
   HalfFaceId exit_at(TetId t) const {
     const Label u = label_in(reached_.at(t));
     for (int f = 0; f < 4; ++f)
-      if (const HalfFaceId h(t, f);
-          state_.mesh.is_boundary(h) &&
-          closest_label(state_.field.frames[t.index()], outward_normal(state_.mesh, h)) == u)
+      if (const HalfFaceId h(t, f); state_.mesh.is_boundary(h) &&
+                                    closest_label(state_.field.frames[t.index()], outward_normal(state_.mesh, h)) == u)
         return h;
     return HalfFaceId();
   }

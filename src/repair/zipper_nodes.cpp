@@ -147,6 +147,22 @@ bool untouched(const RepairState& state, const UnzipPath& path, const std::set<V
   return std::all_of(path.tets.begin(), path.tets.end(), [&](TetId t) { return state.mesh.alive(t); });
 }
 
+// The zipper node with the edges that it has now: splits may have shortened them.
+FreeZipper as_it_is(const RepairState& state, FreeZipper z) {
+  const auto edges = singular_edges_at(state, z.node);
+  z.edges = {edges[0], edges[1]};
+  if (code_of(state, z.edges[0]) > 0) std::swap(z.edges[0], z.edges[1]);
+  return z;
+}
+
+std::vector<FreeZipper> left_of(const RepairState& state, std::span<const FreeZipper> zippers,
+                                const std::set<VertexId>& consumed) {
+  std::vector<FreeZipper> left;
+  for (const FreeZipper& z : zippers)
+    if (!consumed.contains(z.node) && is_zipper(state, z.node)) left.push_back(as_it_is(state, z));
+  return left;
+}
+
 }  // namespace
 
 int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
@@ -162,15 +178,11 @@ int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
   int unzipped = 0;
   for (std::size_t i = 0; i < zippers.size() && unzipped < options.cap; ++i) {
     if (consumed.contains(zippers[i].node) || !is_zipper(state, zippers[i].node)) continue;
-    if (!paths[i] && consumed.empty()) continue;
-    if (!paths[i] || !untouched(state, *paths[i], consumed)) {
-      std::vector<FreeZipper> left;
-      for (const FreeZipper& z : zippers)
-        if (!consumed.contains(z.node) && std::ranges::all_of(z.edges, [&](auto& e) { return code_of(state, e) != 0; }))
-          left.push_back(z);
-      paths[i] = find_unzip_path(state, unzip_seeds(state, zippers[i]), unzip_partners(state, left), blocked, consumed,
-                                 options.search);
-    }
+    if (!paths[i]) continue;
+    if (!untouched(state, *paths[i], consumed))
+      paths[i] =
+          find_unzip_path(state, unzip_seeds(state, as_it_is(state, zippers[i])),
+                          unzip_partners(state, left_of(state, zippers, consumed)), blocked, consumed, options.search);
     Strip strip;
     if (!paths[i] || !unzip(state, *paths[i], options, &strip)) continue;
     blocked.insert(strip.faces.begin(), strip.faces.end());

@@ -15,8 +15,8 @@ namespace {
 bool on_feature_face(const RepairState& state, VertexId v) {
   for (TetId t : vertex_star(state.mesh, v))
     for (int f = 0; f < 4; ++f)
-      if (const HalfFaceId h(t, f); state.mesh.vertices(t)[static_cast<std::size_t>(f)] != v &&
-                                    is_feature_face(state, h))
+      if (const HalfFaceId h(t, f);
+          state.mesh.vertices(t)[static_cast<std::size_t>(f)] != v && is_feature_face(state, h))
         return true;
   return false;
 }
@@ -198,8 +198,8 @@ std::vector<std::size_t> kept_zippers(const FlowChain& chain, double mean_target
       add_peak(chain, first, last, -1, margin, kept);
     }
   }
-  const bool crowded = count > 2 && static_cast<double>(count) > options.crowded *
-                                                                     static_cast<double>(chain.vertices.size());
+  const bool crowded =
+      count > 2 && static_cast<double>(count) > options.crowded * static_cast<double>(chain.vertices.size());
   const double longer = std::min(options.segment * s.mean, options.absolute_segment * mean_target);
   for (std::size_t k = first; k < last && !crowded; ++k) {
     const bool before = s.length[k] > longer || (!chain.closed && k == 0 && on_surface[0]);
@@ -220,8 +220,8 @@ std::vector<FreeZipper> select_free_zippers(const RepairState& state, const Sele
       const VertexId v = end == 0 ? chain.vertices.front() : chain.vertices.back();
       surface[end] = on_feature_face(state, v);
       if (!surface[end]) continue;
-      const auto node = classify_vertex(state.mesh, state.features, state.field, state.codes, v,
-                                        singular_edges_at(state, v));
+      const auto node =
+          classify_vertex(state.mesh, state.features, state.field, state.codes, v, singular_edges_at(state, v));
       reversed[end] = node.kind == NodeKind::zipper;
     }
     for (std::size_t i : kept_zippers(chain, mean_target, surface, reversed, options)) {

@@ -21,12 +21,12 @@ std::vector<VertexId> insert_path(RepairState& state, std::span<const FaceKey> f
 /// by triangles (path vertex, side, next side) and (path vertex, next path vertex, side), through no feature
 /// face, and its second side runs through the middles of the spokes.
 struct StripRequest {
-  std::vector<VertexId> path;          ///< first side: consecutive vertices are edges of the mesh
-  VertexId start;                      ///< the strip starts with the edge (path.front(), start), which stays whole
-  VertexId end;                        ///< it ends with (path.back(), end), or, if invalid, with a boundary edge
-  std::vector<Vec3> side;              ///< per path vertex: where the second side should lie; zero: anywhere
-  bool cross_features = false;         ///< spokes may lie in a feature face that the path crosses
-  std::vector<VertexId> forbidden{};   ///< no spoke ends there
+  std::vector<VertexId> path;         ///< first side: consecutive vertices are edges of the mesh
+  VertexId start;                     ///< the strip starts with the edge (path.front(), start), which stays whole
+  VertexId end;                       ///< it ends with (path.back(), end), or, if invalid, with a boundary edge
+  std::vector<Vec3> side;             ///< per path vertex: where the second side should lie; zero: anywhere
+  bool cross_features = false;        ///< spokes may lie in a feature face that the path crosses
+  std::vector<VertexId> forbidden{};  ///< no spoke ends there
 };
 
 struct Strip {

@@ -14,10 +14,10 @@
 namespace hexfield {
 
 struct UnzipSearchOptions {
-  double deviation = 100;      ///< s in d^2 = u^2 + s (v^2 + w^2): price of leaving the streamline
+  double deviation = 100;       ///< s in d^2 = u^2 + s (v^2 + w^2): price of leaving the streamline
   double smallest_dot = -0.09;  ///< outward face normal . axis of u, for a step (95 degrees)
-  double partner_bonus = 2.0;  ///< a partner is preferred to a boundary that is nearer by up to this factor ...
-  double partner_slack = 1.1;  ///< ... and this one
+  double partner_bonus = 2.0;   ///< a partner is preferred to a boundary that is nearer by up to this factor ...
+  double partner_slack = 1.1;   ///< ... and this one
 };
 
 /// Where a search starts: a tet, the label u of its chart that the path follows, and the edge that the strip starts
@@ -40,11 +40,11 @@ using UnzipPartners = std::multimap<TetId, UnzipPartner>;
 
 struct UnzipPath {
   UnzipSeed seed;
-  std::vector<TetId> tets;     ///< from seed.tet
-  std::vector<FaceKey> faces;  ///< between them; at a boundary goal the boundary face comes last
-  std::vector<Vec3> side;      ///< per face: seed.side carried along by the field, perpendicular to u
+  std::vector<TetId> tets;              ///< from seed.tet
+  std::vector<FaceKey> faces;           ///< between them; at a boundary goal the boundary face comes last
+  std::vector<Vec3> side;               ///< per face: seed.side carried along by the field, perpendicular to u
   std::optional<UnzipPartner> partner;  ///< the goal, unless it is the boundary
-  double distance = 0;         ///< of the last tet
+  double distance = 0;                  ///< of the last tet
 };
 
 /// Expands tets by distance d in coordinates integrated along the path, each once, until one has a boundary face

@@ -13,8 +13,8 @@ namespace hexfield {
 struct ZipperOptions {
   SelectionOptions selection;
   UnzipSearchOptions search;
-  int sweeps = 20;    ///< of Algorithm 1 around a new strip
-  int cap = 500;      ///< unzips per pass
+  int sweeps = 20;  ///< of Algorithm 1 around a new strip
+  int cap = 500;    ///< unzips per pass
 };
 
 /// Seeds of the search from a free zipper node: all tets around its two arcs, with the label against their flow.

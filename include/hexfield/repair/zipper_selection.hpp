@@ -19,9 +19,9 @@ struct SelectionOptions {
 /// A maximal chain of inner singular edges of codes +1 and -1 through vertices off the feature faces that have no
 /// other singular edge, with the flow along it.
 struct FlowChain {
-  std::vector<VertexId> vertices;  ///< first = last when closed; then it starts at a zipper node if it has one
-  std::vector<EdgeCode> codes;     ///< per edge
-  std::vector<double> flow;        ///< per vertex: sum of axis . edge along the transported label, from 0
+  std::vector<VertexId> vertices;    ///< first = last when closed; then it starts at a zipper node if it has one
+  std::vector<EdgeCode> codes;       ///< per edge
+  std::vector<double> flow;          ///< per vertex: sum of axis . edge along the transported label, from 0
   std::vector<std::size_t> zippers;  ///< indices of vertices between codes of opposite sign
   bool closed = false;
   double length = 0;
