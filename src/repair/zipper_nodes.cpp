@@ -1,0 +1,196 @@
+#include "hexfield/repair/zipper_nodes.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "hexfield/base/parallel.hpp"
+#include "hexfield/field/edge_codes.hpp"
+#include "hexfield/repair/state_ops.hpp"
+#include "hexfield/repair/zipping.hpp"
+
+namespace hexfield {
+namespace {
+
+VertexId other_end(const EdgeKey& edge, VertexId v) { return edge[0] == v ? edge[1] : edge[0]; }
+
+constexpr int arc_steps = 3;  // edges of an arc that tell its direction
+
+// Direction in space of the arc that leaves v along `edge`.
+Vec3 direction_of_arc(const RepairState& state, VertexId v, EdgeKey edge) {
+  VertexId end = v;
+  for (int step = 0; step < arc_steps; ++step) {
+    end = other_end(edge, end);
+    const auto here = singular_edges_at(state, end);
+    if (here.size() != 2) break;
+    edge = here[0] == edge ? here[1] : here[0];
+  }
+  return (state.mesh.point(end) - state.mesh.point(v)).normalized();
+}
+
+struct LabelledRing {
+  std::vector<TetId> tets;
+  std::vector<octahedral::Label> labels;  // along the flow of the arc away from v
+};
+
+LabelledRing ring_with_labels(const RepairState& state, VertexId v, const EdgeKey& edge) {
+  const VertexId to = other_end(edge, v);
+  const EdgeRing ring = ring_of(state.mesh, v, to);
+  const auto out = outgoing_label(state.mesh, state.field, ring, code_of(state, edge), v, to);
+  if (out == octahedral::no_label) return {};
+  return {ring.tets, transport_around(state.field, ring, out)};
+}
+
+bool is_zipper(const RepairState& state, VertexId v) {
+  const auto edges = singular_edges_at(state, v);
+  return edges.size() == 2 && std::abs(code_of(state, edges[0])) == 1 &&
+         code_of(state, edges[0]) == -code_of(state, edges[1]);
+}
+
+void mark_arc(RepairState& state, const std::vector<VertexId>& arc, EdgeCode code, int pair) {
+  for (std::size_t i = 0; i + 1 < arc.size(); ++i) {
+    const EdgeKey e = edge_key(arc[i], arc[i + 1]);
+    if (!state.codes.contains(e)) continue;
+    state.codes[e] = code;
+    state.pairs[e] = pair;
+  }
+}
+
+int new_pair(const RepairState& state) {
+  int pair = 0;
+  for (const auto& [edge, id] : state.pairs) pair = std::max(pair, id + 1);
+  return pair;
+}
+
+// First side and end of the strip to a partner: equal codes meet.
+struct PartnerEnds {
+  VertexId first;
+  VertexId second;
+};
+PartnerEnds ends_at(const RepairState& state, const UnzipPath& path) {
+  const VertexId node = path.partner->node, far = other_end(path.partner->edge, node);
+  if (code_of(state, path.partner->edge) == code_of(state, path.seed.edge)) return {node, far};
+  return {far, node};
+}
+
+bool path_is_regular(const RepairState& state, const std::vector<VertexId>& path) {
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    if (is_special(state, edge_key(path[i], path[i + 1]))) return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<UnzipSeed> unzip_seeds(const RepairState& state, const FreeZipper& zipper) {
+  std::array<Vec3, 2> direction;
+  for (std::size_t i = 0; i < 2; ++i) direction[i] = direction_of_arc(state, zipper.node, zipper.edges[i]);
+  std::vector<UnzipSeed> seeds;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const LabelledRing ring = ring_with_labels(state, zipper.node, zipper.edges[i]);
+    for (std::size_t k = 0; k < ring.tets.size(); ++k)
+      seeds.push_back({ring.tets[k], octahedral::negate(ring.labels[k]), zipper.edges[i], zipper.node,
+                       direction[i] - direction[1 - i]});
+  }
+  return seeds;
+}
+
+UnzipPartners unzip_partners(const RepairState& state, std::span<const FreeZipper> zippers) {
+  UnzipPartners partners;
+  for (const FreeZipper& z : zippers)
+    for (const EdgeKey& edge : z.edges) {
+      const LabelledRing ring = ring_with_labels(state, z.node, edge);
+      for (std::size_t k = 0; k < ring.tets.size(); ++k)
+        partners.emplace(ring.tets[k], UnzipPartner{z.node, edge, ring.labels[k]});
+    }
+  return partners;
+}
+
+bool unzip(RepairState& state, const UnzipPath& path, const ZipperOptions& options, Strip* result) {
+  const EdgeCode code = code_of(state, path.seed.edge);
+  if (!is_zipper(state, path.seed.origin) || (path.partner && !is_zipper(state, path.partner->node))) return false;
+  StripRequest request;
+  request.cross_features = true;
+  request.start = other_end(path.seed.edge, path.seed.origin);
+  std::optional<PartnerEnds> ends;
+  std::optional<Vec3> to;
+  if (path.partner) {
+    ends = ends_at(state, path);
+    to = state.mesh.point(ends->first);
+  }
+  const auto inserted = insert_path(state, path.faces, state.mesh.point(path.seed.origin), to);
+  request.path = {path.seed.origin};
+  request.path.insert(request.path.end(), inserted.begin(), inserted.end());
+  request.side = path.side;
+  request.side.insert(request.side.begin(), path.seed.side);
+  if (ends) {
+    request.path.push_back(ends->first);
+    request.side.push_back(request.side.back());
+    request.end = ends->second;
+  }
+  if (!path_is_regular(state, request.path)) return false;
+  const auto strip = build_strip(state, request);
+  if (!strip) return false;
+  ZipOptions zip;
+  zip.sweeps = 0;
+  if (!zip_patch(state, {strip->faces, strip->start, strip->boundary()}, octahedral::identity, zip)) return false;
+  const int pair = new_pair(state);
+  mark_arc(state, strip->first, -code, pair);
+  mark_arc(state, strip->second, code, pair);
+  smooth(state, tets_touching(state.mesh, strip->faces), options.sweeps, SingularSign::by_code);
+  if (result != nullptr) *result = *strip;
+  return true;
+}
+
+namespace {
+
+bool untouched(const RepairState& state, const UnzipPath& path, const std::set<VertexId>& consumed) {
+  if (path.partner && consumed.contains(path.partner->node)) return false;
+  return std::all_of(path.tets.begin(), path.tets.end(), [&](TetId t) { return state.mesh.alive(t); });
+}
+
+// The zipper node with the edges that it has now: splits may have shortened them.
+FreeZipper as_it_is(const RepairState& state, FreeZipper z) {
+  const auto edges = singular_edges_at(state, z.node);
+  z.edges = {edges[0], edges[1]};
+  if (code_of(state, z.edges[0]) > 0) std::swap(z.edges[0], z.edges[1]);
+  return z;
+}
+
+std::vector<FreeZipper> left_of(const RepairState& state, std::span<const FreeZipper> zippers,
+                                const std::set<VertexId>& consumed) {
+  std::vector<FreeZipper> left;
+  for (const FreeZipper& z : zippers)
+    if (!consumed.contains(z.node) && is_zipper(state, z.node)) left.push_back(as_it_is(state, z));
+  return left;
+}
+
+}  // namespace
+
+int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
+  const auto zippers = select_free_zippers(state, options.selection);
+  const UnzipPartners partners = unzip_partners(state, zippers);
+  std::set<FaceKey> blocked;
+  std::set<VertexId> consumed;
+  std::vector<std::optional<UnzipPath>> paths(zippers.size());
+  parallel_for(zippers.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      paths[i] = find_unzip_path(state, unzip_seeds(state, zippers[i]), partners, blocked, consumed, options.search);
+  });
+  int unzipped = 0;
+  for (std::size_t i = 0; i < zippers.size() && unzipped < options.cap; ++i) {
+    if (consumed.contains(zippers[i].node) || !is_zipper(state, zippers[i].node)) continue;
+    if (!paths[i]) continue;
+    if (!untouched(state, *paths[i], consumed))
+      paths[i] =
+          find_unzip_path(state, unzip_seeds(state, as_it_is(state, zippers[i])),
+                          unzip_partners(state, left_of(state, zippers, consumed)), blocked, consumed, options.search);
+    Strip strip;
+    if (!paths[i] || !unzip(state, *paths[i], options, &strip)) continue;
+    blocked.insert(strip.faces.begin(), strip.faces.end());
+    consumed.insert(zippers[i].node);
+    if (paths[i]->partner) consumed.insert(paths[i]->partner->node);
+    unzipped += paths[i]->partner ? 2 : 1;
+  }
+  return unzipped;
+}
+
+}  // namespace hexfield
