@@ -1,7 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <random>
+
 #include "hexfield/field/edge_codes.hpp"
+#include "hexfield/field/matchings.hpp"
+#include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/repair/state_ops.hpp"
+#include "hexfield/repair/zipping.hpp"
 #include "support/meshes.hpp"
 
 /// Fields made by hand on Kuhn boxes (support/meshes.hpp), for tests of the repair.
@@ -49,6 +55,62 @@ inline RepairState zipper_state(const std::array<int, 3>& box = {6, 4, 4}, const
     }
   state.codes = compute_codes(state.mesh, state.features, state.field);
   return state;
+}
+
+/// The triangles through these points as a patch, bounded by its edges of one triangle, that starts at the edge
+/// between two points.
+inline ZipPatch patch_of(const TetMesh& mesh, const std::vector<std::array<Vec3, 3>>& triangles,
+                         const std::array<Vec3, 2>& start) {
+  ZipPatch patch;
+  std::map<EdgeKey, int> uses;
+  for (const auto& p : triangles) {
+    const FaceKey f = face_key(vertex_at(mesh, p[0]), vertex_at(mesh, p[1]), vertex_at(mesh, p[2]));
+    patch.faces.push_back(f);
+    for (const EdgeKey& e : {edge_key(f[0], f[1]), edge_key(f[0], f[2]), edge_key(f[1], f[2])}) ++uses[e];
+  }
+  for (const auto& [e, n] : uses)
+    if (n == 1) patch.boundary.push_back(e);
+  patch.start = edge_key(vertex_at(mesh, start[0]), vertex_at(mesh, start[1]));
+  return patch;
+}
+
+/// Triangles of a parallelogram of n_x x-edges and n_d space diagonals at a corner (n_d = 2, n_x = 2: fact 11).
+inline std::vector<std::array<Vec3, 3>> slanted_triangles(const Vec3& corner, int n_x, int n_d) {
+  const Vec3 x(1, 0, 0), d(1, 1, 1);
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (int a = 0; a < n_x; ++a)
+    for (int b = 0; b < n_d; ++b) {
+      const Vec3 p = corner + a * x + b * d;
+      triangles.push_back({p, p + x, p + d});
+      triangles.push_back({p + x, p + d, p + x + d});
+    }
+  return triangles;
+}
+
+/// A random gauge change of every tet; returns the rotations.
+inline std::vector<octahedral::Rotation> shuffle_gauges(RepairState& state, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<octahedral::Rotation> gauges(state.mesh.num_tets());
+  for (std::size_t t = 0; t < gauges.size(); ++t) {
+    gauges[t] = static_cast<octahedral::Rotation>(random() % octahedral::order);
+    change_gauge(state.mesh, state.field, TetId(static_cast<std::int64_t>(t)), gauges[t]);
+  }
+  return gauges;
+}
+
+/// Numbers of vertices of a kind, corners of the box left out.
+inline int count_kind(const RepairState& state, NodeKind kind) {
+  int n = 0;
+  for (const SingularNode& node : singularity_graph(state.mesh, state.features, state.field, state.codes).nodes)
+    n += node.kind == kind && !state.features.points.contains(node.vertex);
+  return n;
+}
+
+/// Numbers of edges with a code, feature edges left out.
+inline int count_code(const RepairState& state, EdgeCode code) {
+  int n = 0;
+  for (const auto& [edge, c] : state.codes) n += c == code && !state.features.edges.contains(edge);
+  return n;
 }
 
 }  // namespace hexfield::testing
