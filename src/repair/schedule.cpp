@@ -14,6 +14,7 @@
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/repair/neighbourhood.hpp"
 #include "hexfield/repair/relocation.hpp"
+#include "hexfield/repair/remesh.hpp"
 #include "hexfield/repair/state_ops.hpp"
 #include "hexfield/repair/zipper_nodes.hpp"
 
@@ -22,6 +23,7 @@ namespace {
 
 constexpr int isolation_passes = 4;
 constexpr int relocation_sweeps = 50;  // spec-lmff section 4
+constexpr int remesh_sweeps = 10;
 constexpr int relocation_rings = 3;
 constexpr int final_sweeps = 100;
 
@@ -83,6 +85,11 @@ void Schedule::repair_zippers() {
 }
 
 void Schedule::relocate() {
+  timed("remesh near arcs", [&] {
+    const RemeshReport report = remesh_near_singularities(state_);
+    smooth(state_, report.touched, remesh_sweeps);
+    return report.splits + report.collapses + report.swaps;
+  });
   timed("relocate", [&] {
     RelocationOptions options;
     options.alignment = options_.alignment_weight;

@@ -15,7 +15,7 @@ class Schedule {
 
   /// Free zipper nodes (Stage II).
   void repair_zippers();
-  /// Arcs move to where the field wants them, and the field near them follows the features only.
+  /// The mesh near arcs gets better, arcs move to where the field wants them, and the field near them follows the features only.
   void relocate();
   /// True when every edge and every vertex is meshable.
   bool meshable();
