@@ -28,9 +28,9 @@ double exact_sum(MPI_Comm comm, std::span<const double> terms) {
     double largest = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const double size = std::abs(terms[i]);
-      if (!(size <= largest)) largest = size;  // keeps what is not a number
+      largest = std::max(largest, std::isfinite(size) ? size : std::numeric_limits<double>::infinity());
     }
-    largest_of[begin / grain] = std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
+    largest_of[begin / grain] = largest;
   });
   double largest = 0;
   for (double l : largest_of) largest = std::max(largest, l);
