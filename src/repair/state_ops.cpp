@@ -162,13 +162,26 @@ void update_codes(RepairState& state, std::span<const EdgeKey> edges) {
   }
 }
 
-AlignReport smooth(RepairState& state, std::span<const TetId> tets, int sweeps, SingularSign sign) {
+namespace {
+
+AlignReport smooth_aligned(RepairState& state, std::span<const TetId> tets, int sweeps, const EdgeCodes& codes,
+                           SingularSign sign) {
   std::vector<TetId> ordered(tets.begin(), tets.end());
   std::sort(ordered.begin(), ordered.end());
-  const auto constraints = collect_constraints_of(state.mesh, state.features, state.field, state.codes, ordered, sign);
+  const auto constraints = collect_constraints_of(state.mesh, state.features, state.field, codes, ordered, sign);
   AlignOptions options;
   options.sweeps = sweeps;
   return align_submesh(state.mesh, state.field, constraints, ordered, options);
+}
+
+}  // namespace
+
+AlignReport smooth(RepairState& state, std::span<const TetId> tets, int sweeps, SingularSign sign) {
+  return smooth_aligned(state, tets, sweeps, state.codes, sign);
+}
+
+AlignReport smooth_to_features(RepairState& state, std::span<const TetId> tets, int sweeps) {
+  return smooth_aligned(state, tets, sweeps, {}, SingularSign::by_geometry);
 }
 
 std::vector<Violation> check(const RepairState& state) {

@@ -76,6 +76,9 @@ void update_codes(RepairState& state, std::span<const EdgeKey> edges);
 AlignReport smooth(RepairState& state, std::span<const TetId> tets, int sweeps,
                    SingularSign sign = SingularSign::by_geometry);
 
+/// The same, aligned to features only: what singular edges shall follow.
+AlignReport smooth_to_features(RepairState& state, std::span<const TetId> tets, int sweeps);
+
 /// Everything that must always hold: the checks of mesh, features, field and graph, and sizes.
 std::vector<Violation> check(const RepairState& state);
 
