@@ -172,3 +172,57 @@ TEST(Remesh, SameBytesForAnyNumberOfThreads) {
   }
   EXPECT_EQ(tets[0], tets[1]);
 }
+
+TEST(PostRemesh, RaisesQualityAndKeepsFeaturesAndCodes) {
+  RepairState state = shaken_zipper();
+  const ClosestSurface surface(state.mesh, state.features);
+  const ClosestCurve curves(state.mesh, state.features);
+  const int euler = euler_characteristic(state.features);
+  const PostRemeshReport report = post_remesh(state, surface, curves);
+  EXPECT_LT(report.worst_after, report.worst_before);
+  EXPECT_LT(report.mean_after, report.mean_before);
+  const auto violations = check(state);
+  ASSERT_TRUE(violations.empty()) << violations[0].sentence;
+  EXPECT_NEAR(volume(state.mesh), 6 * 4 * 4, 1e-9);
+  EXPECT_EQ(euler_characteristic(state.features), euler);
+  EXPECT_NEAR(curve_length(state), 4 * (6 + 4 + 4), 1e-9);
+  for (std::size_t t = 0; t < state.mesh.num_tets(); ++t) EXPECT_TRUE(state.mesh.alive(TetId(t)));
+  for (TetId t : state.mesh.vertex_tet) EXPECT_TRUE(t.valid());
+}
+
+TEST(PostRemesh, LengthsAreShorterWhereTheFieldTurns) {
+  RepairState state = box_state(10, 4, 4);
+  for (std::size_t t = 0; t < state.mesh.num_tets(); ++t)
+    if (centroid(state.mesh, TetId(t)).x() > 5)
+      state.field.frames[t] = Quaternion(Eigen::AngleAxisd(0.7, Vec3::UnitZ()));
+  const auto lengths = field_adapted_lengths(state);
+  const auto at = [&](const Vec3& p) { return lengths[hexfield::testing::vertex_at(state.mesh, p).index()]; };
+  EXPECT_NEAR(*std::max_element(lengths.begin(), lengths.end()), 1, 1e-12);
+  EXPECT_LT(at(Vec3(5, 2, 2)), 0.8 * at(Vec3(0, 2, 2)));
+  EXPECT_NEAR(at(Vec3(0, 2, 2)), 1, 1e-12);
+  EXPECT_GT(*std::min_element(lengths.begin(), lengths.end()), 0.3);
+}
+
+TEST(PostRemesh, VerticesMoveToBetterPlacesForAnyNumberOfThreads) {
+  std::vector<Vec3> points[2];
+  for (int threads : {1, 2}) {
+    set_threads(threads);
+    RepairState state = box_state(5);
+    shake(state, 0.2, 3);
+    std::vector<TetId> tets = all_tets(state.mesh);
+    const auto worst = [&] {
+      double most = 0;
+      for (TetId t : tets) most = std::max(most, tet_distortion(state.mesh, t));
+      return most;
+    };
+    const double before = worst();
+    EXPECT_GT(optimise_vertices(state, ClosestSurface(state.mesh, state.features),
+                                ClosestCurve(state.mesh, state.features), 4),
+              50);
+    EXPECT_LT(worst(), 0.3 * before);
+    EXPECT_TRUE(check(state.mesh).empty());
+    EXPECT_TRUE(check(state.mesh, state.features).empty());
+    points[threads - 1] = state.mesh.points;
+  }
+  EXPECT_EQ(points[0], points[1]);
+}

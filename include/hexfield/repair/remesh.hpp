@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "hexfield/mesh/surface.hpp"
 #include "hexfield/repair/repair_state.hpp"
 
 namespace hexfield {
@@ -37,5 +38,40 @@ RemeshReport remesh_near_singularities(RepairState& state, const RemeshOptions& 
 
 /// The same on the edges of given tets and of those made from them.
 RemeshReport remesh(RepairState& state, std::span<const TetId> region, const RemeshOptions& options);
+
+/// Length wished at every vertex for the final mesh (spec-lmff section 6): the target length of the state divided by
+/// (S + 1)^2, S the 8-norm of the angles (radians) between matched frames over the faces at the vertex, angles up to
+/// 20 degrees counting nothing; at least 0.3 times the smallest one of the state; three times averaged with the
+/// neighbours (vertices of singular edges keep 0.8 of theirs); scaled to the largest one of the state.
+std::vector<double> field_adapted_lengths(const RepairState& state);
+
+struct PostRemeshOptions {
+  int rounds = 3;
+  double split_above = 5.0 / 6;     ///< as in RemeshOptions, in units of field_adapted_lengths()
+  double collapse_below = 3.0 / 5;  ///< the same
+  int vertex_sweeps = 2;            ///< of optimise_vertices() in every round
+};
+struct PostRemeshReport {
+  int splits = 0, collapses = 0, swaps = 0, refused = 0;
+  double worst_before = 0, worst_after = 0;  ///< log energy
+  double mean_before = 0, mean_after = 0;    ///< log energy
+};
+
+/// The final pass over all edges: rounds of splits, collapses and swaps, each only where the worst tet around does not
+/// get worse, with field-adapted target lengths, and of moving vertices. Vertices of features end on the surfaces and
+/// curves of the input where that is possible. Tombstones and vertices without tets are removed at the end: ids change.
+/// `state.target_length` becomes that of the last round. Codes are as the edits carry them. Not collective.
+PostRemeshReport post_remesh(RepairState& state, const ClosestSurface& original_surface,
+                             const ClosestCurve& original_curves, const PostRemeshOptions& options = {});
+
+/// Moves vertices, each in its star, to lower sum exp(w (tr / det^{2/3} - 3)) over its tets, w such that the worst term
+/// is 1e5: in space; on the surface or curve of the input for vertices of features; not at feature points and at
+/// vertices of singular edges. Vertices of one colour of a greedy colouring move at the same time: the same bytes for
+/// any number of threads. Returns the number of moves. Not collective.
+int optimise_vertices(RepairState& state, const ClosestSurface& original_surface, const ClosestCurve& original_curves,
+                      int sweeps);
+
+/// Renumbers the vertices so that each has a tet, keeping their order, and removes tombstones. Not collective.
+void remove_unused(RepairState& state);
 
 }  // namespace hexfield
