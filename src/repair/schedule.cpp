@@ -119,9 +119,22 @@ void Schedule::finish() {
   timed("separate arcs and features", [&] {
     unify_codes(state_.mesh, state_.field, state_.codes);
     isolate();
+    return 0;
+  });
+  align_everywhere();
+  timed("remesh everywhere", [&] {
+    PostRemeshOptions options;
+    options.rounds = options_.post_remesh_rounds;
+    post_remesh(state_, surface_, curves_, options);
+    isolate();
+    remove_unused(state_);
     comb(state_.mesh, state_.field);
     return 0;
   });
+  align_everywhere();
+}
+
+void Schedule::align_everywhere() {
   timed("align everywhere", [&] {
     const auto constraints = collect_constraints(state_.mesh, state_.features, state_.field, state_.codes);
     const DistributedMesh alone(MPI_COMM_SELF, state_.mesh);

@@ -29,6 +29,7 @@ class Schedule {
   template <class Work>
   void timed(const std::string& kind, const Work& work);
   void isolate();
+  void align_everywhere();
 
   RepairIterate& iterate_;
   RepairState& state_;
