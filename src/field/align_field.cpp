@@ -136,7 +136,8 @@ AlignReport align_field(const DistributedMesh& mesh, FrameField& field, std::spa
     current.swap(next);
   }
   report.largest_turn = largest_turn(previous, current, data.owned);
-  for (const auto& [i, c] : data.constraints) report.misaligned += misses(current[static_cast<std::size_t>(i)], c);
+  for (const ConstrainedTet& c : data.constraints)
+    report.misaligned += misses(current[static_cast<std::size_t>(c.tet)], c.constraint);
   long counts[2] = {report.reverted, report.misaligned};
   MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_LONG, MPI_SUM, mesh.comm());
   MPI_Allreduce(MPI_IN_PLACE, &report.largest_turn, 1, MPI_DOUBLE, MPI_MAX, mesh.comm());

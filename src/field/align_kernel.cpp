@@ -65,13 +65,13 @@ long jacobi_sweep(const AlignData& data, const SweepLimits& limits, const std::v
   parallel_for(data.owned, grain, [&](std::size_t begin, std::size_t end) {
     auto constraint =
         std::lower_bound(data.constraints.begin(), data.constraints.end(), begin,
-                         [](const auto& c, std::size_t i) { return static_cast<std::size_t>(c.first) < i; });
+                         [](const auto& c, std::size_t i) { return static_cast<std::size_t>(c.tet) < i; });
     long broken = 0;
     for (std::size_t i = begin; i < end; ++i) {
       double closest = 1;
       Quaternion q = averaged(data, turns, current, i, closest);
-      if (constraint != data.constraints.end() && static_cast<std::size_t>(constraint->first) == i) {
-        q = project_frame(q, constraint->second);
+      if (constraint != data.constraints.end() && static_cast<std::size_t>(constraint->tet) == i) {
+        q = project_frame(q, constraint->projection);
         ++constraint;
       }
       if (closest < limits.guard) {

@@ -8,6 +8,21 @@
 
 namespace hexfield {
 
+/// What of project_frame() does not depend on the frame.
+struct FrameProjection {
+  Quaternion turn;           ///< takes the axis of the first label onto its direction, or the only frame that fits
+  Vec3 axis = Vec3::Zero();  ///< of the first label; zero when two axes fix the frame
+};
+FrameProjection projection_of(const FrameConstraint& constraint);
+Quaternion project_frame(const Quaternion& q, const FrameProjection& projection);
+
+struct ConstrainedTet {
+  ConstrainedTet(std::int32_t t, const FrameConstraint& c) : tet(t), constraint(c), projection(projection_of(c)) {}
+  std::int32_t tet;
+  FrameConstraint constraint;
+  FrameProjection projection;
+};
+
 /// Flat data of Algorithm 1 on one rank. Slot `tets` of the frames is a zero quaternion that stands for
 /// the missing neighbour at boundary faces.
 struct AlignData {
@@ -15,7 +30,7 @@ struct AlignData {
   std::size_t tets = 0;                                             ///< with ghosts
   std::vector<std::array<std::int32_t, 4>> neighbours;              ///< per owned tet
   std::vector<std::array<octahedral::Rotation, 4>> from_neighbour;  ///< M_ji: q_j M_ji is in the chart of i
-  std::vector<std::pair<std::int32_t, FrameConstraint>> constraints;
+  std::vector<ConstrainedTet> constraints;                          ///< ascending by tet
 };
 
 struct SweepLimits {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hexfield/field/align_field.hpp"
+#include "align_kernel.hpp"
 
 namespace hexfield {
 namespace {
@@ -38,26 +38,39 @@ std::vector<std::pair<TetId, FrameConstraint>> frame_constraints(std::span<const
   return found;
 }
 
-Quaternion project_frame(const Quaternion& q, const FrameConstraint& constraint) {
-  if (constraint.count == 0) return q;
+FrameProjection projection_of(const FrameConstraint& constraint) {
+  FrameProjection p;
+  if (constraint.count == 0) return p;
   const Vec3 axis = octahedral::direction(constraint.labels[0]);
   const Vec3& direction = constraint.directions[0];
-  Quaternion r;
   if (constraint.count == 2) {
     const Mat3 chart = basis(axis, octahedral::direction(constraint.labels[1]));
-    r = Quaternion(Mat3(basis(direction, constraint.directions[1]) * chart.transpose()));
+    p.turn = Quaternion(Mat3(basis(direction, constraint.directions[1]) * chart.transpose())).normalized();
   } else {
-    // Frames with this axis there: turn * (rotation about the axis); the closest keeps w and that component.
-    const Quaternion turn = Quaternion::FromTwoVectors(axis, direction);
-    const Quaternion rest = turn.conjugate() * q;
-    const double along = rest.vec().dot(axis);
-    const double norm = std::hypot(rest.w(), along);
-    if (norm < 1e-12) return turn;
-    r = turn * Quaternion(rest.w() / norm, along / norm * axis.x(), along / norm * axis.y(), along / norm * axis.z());
+    p.turn = Quaternion::FromTwoVectors(axis, direction);
+    p.axis = axis;
   }
-  r.normalize();
+  return p;
+}
+
+Quaternion project_frame(const Quaternion& q, const FrameProjection& p) {
+  Quaternion r = p.turn;
+  if (p.axis != Vec3::Zero()) {
+    // Frames with this axis there: turn * (rotation about the axis); the closest keeps w and that component.
+    const Quaternion rest = p.turn.conjugate() * q;
+    const double along = rest.vec().dot(p.axis);
+    const double norm = std::sqrt(rest.w() * rest.w() + along * along);
+    if (norm < 1e-12) return p.turn;
+    const Vec3 v = along / norm * p.axis;
+    r = p.turn * Quaternion(rest.w() / norm, v.x(), v.y(), v.z());
+    r.normalize();
+  }
   if (r.dot(q) < 0) r.coeffs() *= -1;
   return r;
+}
+
+Quaternion project_frame(const Quaternion& q, const FrameConstraint& constraint) {
+  return constraint.count == 0 ? q : project_frame(q, projection_of(constraint));
 }
 
 }  // namespace hexfield
