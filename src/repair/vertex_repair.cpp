@@ -52,6 +52,16 @@ struct Score {
   std::size_t edges = 0;
 };
 
+NodeKind kind_of(const RepairState& state, VertexId v) {
+  return classify_vertex(state.mesh, state.features, state.field, state.codes, v, singular_edges_at(state, v)).kind;
+}
+
+// What counts of codes and parabolic sectors tell: maps of many large links would cost more than all operations.
+bool is_bad(RepairState& state, VertexId v) {
+  const NodeKind kind = kind_of(state, v);
+  return (kind != NodeKind::arc && kind != NodeKind::node) || !parabolic_sectors(state, OneRing(state, v)).empty();
+}
+
 struct Near {
   std::set<VertexId> vertices;
   std::size_t first_new = 0;
@@ -66,7 +76,7 @@ Near near_of(const TetMesh& mesh, VertexId v) {
 
 //
 // `near`: the vertices of the one-ring before anything was split; those made since count too.
-Score score_of(const RepairState& state, VertexId v, const Near& near, const VertexRepairOptions& options) {
+Score score_of(RepairState& state, VertexId v, const Near& near) {
   Score score;
   std::set<VertexId> ends;
   for (const auto& entry : state.codes)
@@ -79,7 +89,7 @@ Score score_of(const RepairState& state, VertexId v, const Near& near, const Ver
     score.invalid += kind == NodeKind::invalid || kind == NodeKind::compound;
     score.zippers += kind == NodeKind::zipper;
   }
-  score.invalid += needs_repair(state, v, options);
+  score.invalid += is_bad(state, v);
   score.edges = singular_edges_at(state, v).size();
   return score;
 }
@@ -87,10 +97,6 @@ Score score_of(const RepairState& state, VertexId v, const Near& near, const Ver
 bool better(const Score& now, const Score& before, bool was_zipper) {
   if (was_zipper) return now.invalid + now.zippers < before.invalid + before.zippers;
   return std::tie(now.invalid, now.edges) < std::tie(before.invalid, before.edges);
-}
-
-NodeKind kind_of(const RepairState& state, VertexId v) {
-  return classify_vertex(state.mesh, state.features, state.field, state.codes, v, singular_edges_at(state, v)).kind;
 }
 
 }  // namespace
@@ -109,15 +115,16 @@ bool needs_repair(const RepairState& state, VertexId v, const VertexRepairOption
 bool repair_vertex(RepairState& local, VertexId v, const VertexRepairOptions& options) {
   bool changed = false;
   const Near near = near_of(local.mesh, v);
-  for (int round = 0; round < options.rounds && needs_repair(local, v, options); ++round) {
+  for (int round = 0; round < options.rounds && (round == 0 ? needs_repair(local, v, options) : is_bad(local, v));
+       ++round) {
     const std::size_t singular = singular_edges_at(local, v).size();
     if (singular < 3 && !in_feature_surface(local, v)) break;
     const bool zipper = kind_of(local, v) == NodeKind::zipper;
-    const Score before = score_of(local, v, near, options);
+    const Score before = score_of(local, v, near);
     bool success = false;
     for (const Operation& operation : operations_for(local, v, options)) {
       RepairState trial = local;
-      if (!operation(trial, v) || !better(score_of(trial, v, near, options), before, zipper)) continue;
+      if (!operation(trial, v) || !better(score_of(trial, v, near), before, zipper)) continue;
       local = std::move(trial);
       success = changed = true;
       break;
