@@ -56,7 +56,6 @@ class SpokeSearch {
  public:
   SpokeSearch(const RepairState& state, const StripRequest& request) : state_(state), request_(request) {
     taken_.insert(request.path.begin(), request.path.end());
-    taken_.insert(request.forbidden.begin(), request.forbidden.end());
   }
 
   // Cheapest chain of spokes (Dijkstra; ties by path index, then vertex id); empty when there is none.
@@ -85,7 +84,8 @@ class SpokeSearch {
   bool is_goal(const Spoke& s) const {
     if (s.first + 1 != request_.path.size()) return false;
     if (request_.end.valid()) return s.second == request_.end;
-    return s != Spoke{0, request_.start} && !ring_of(state_.mesh, path(s.first), s.second).closed;
+    if (s == Spoke{0, request_.start} || ring_of(state_.mesh, path(s.first), s.second).closed) return false;
+    return request_.exits.empty() || std::ranges::find(request_.exits, s.second) != request_.exits.end();
   }
 
   std::vector<Spoke> chain_to(Spoke s) const {
@@ -102,7 +102,8 @@ class SpokeSearch {
     if (is_special(state_, edge_key(path(s.first), s.second))) return false;
     bool in_feature = !ring.closed;
     for (HalfFaceId h : ring.crossings) in_feature = in_feature || is_feature_face(state_, h);
-    return !in_feature || request_.cross_features || (last && !request_.end.valid() && !ring.closed);
+    if (!in_feature || s.first >= request_.held) return true;
+    return last && std::ranges::find(request_.exits, s.second) != request_.exits.end();
   }
 
   void relax(const Spoke& from, const Spoke& to, double cost) {
@@ -167,7 +168,8 @@ std::vector<VertexId> insert_path(RepairState& state, std::span<const FaceKey> f
 }
 
 std::vector<EdgeKey> Strip::boundary() const {
-  std::vector<EdgeKey> edges{start};
+  std::vector<EdgeKey> edges;
+  if (!from_boundary) edges.push_back(start);
   for (const auto* side : {&first, &second})
     for (std::size_t i = 0; i + 1 < side->size(); ++i) edges.push_back(edge_key((*side)[i], (*side)[i + 1]));
   if (!at_boundary && first.back() != second.back()) edges.push_back(edge_key(first.back(), second.back()));
@@ -181,8 +183,9 @@ std::optional<Strip> build_strip(RepairState& state, const StripRequest& request
   if (spokes.empty()) return {};
   Strip strip;
   strip.first = request.path;
-  strip.second = {request.start};
-  strip.start = edge_key(request.path.front(), request.start);
+  strip.second = {request.split_start ? split_edge(state, request.path.front(), request.start) : request.start};
+  strip.start = edge_key(request.path.front(), strip.second.front());
+  strip.from_boundary = request.split_start;
   strip.at_boundary = !request.end.valid();
   for (std::size_t j = 1; j < spokes.size(); ++j) {
     const VertexId before = request.path[spokes[j - 1].first];

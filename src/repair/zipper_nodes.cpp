@@ -104,7 +104,6 @@ bool unzip(RepairState& state, const UnzipPath& path, const ZipperOptions& optio
   if (!is_free_zipper(state, path.seed.origin) || (path.partner && !is_free_zipper(state, path.partner->node)))
     return false;
   StripRequest request;
-  request.cross_features = true;
   request.start = other_end(path.seed.edge, path.seed.origin);
   std::optional<PartnerEnds> ends;
   std::optional<Vec3> to;
