@@ -14,6 +14,7 @@
 #include "hexfield/io/tet_io.hpp"
 #include "hexfield/map/verify.hpp"
 #include "hexfield/mesh/features.hpp"
+#include "hexfield/repair/meshability.hpp"
 
 namespace hexfield::apps {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 struct CheckLine {
   std::string file;
   std::string against;
+  bool meshability = false;
 };
 
 /// Prints every violation and returns their number.
@@ -29,8 +31,26 @@ std::size_t print_all(const std::vector<Violation>& violations) {
   return violations.size();
 }
 
+/// What keeps a field from being locally meshable, edge by edge and vertex by vertex. Returns the number of places.
+std::size_t print_meshability(const FieldResult& result) {
+  const FieldView view(result.mesh, result.features, result.field, result.codes);
+  const Meshability found = check_meshability(view);
+  for (const EdgeKey& e : found.bad_edges) {
+    const Vec3 middle = (result.mesh.point(e[0]) + result.mesh.point(e[1])) / 2;
+    fmt::print("The edge of vertices {} and {} at ({:.6g}, {:.6g}, {:.6g}) is not locally meshable.\n", e[0].value,
+               e[1].value, middle.x(), middle.y(), middle.z());
+  }
+  for (VertexId v : found.bad_vertices) {
+    const Vec3& p = result.mesh.point(v);
+    fmt::print("Vertex {} at ({:.6g}, {:.6g}, {:.6g}) is not locally meshable.\n", v.value, p.x(), p.y(), p.z());
+  }
+  fmt::print("{} of {} edges and {} of {} vertices are not locally meshable; {} more are once edges are split\n",
+             found.bad_edges.size(), found.edges, found.bad_vertices.size(), found.vertices, found.split_first.size());
+  return found.bad_edges.size() + found.bad_vertices.size();
+}
+
 /// Reads every stage back and checks its value.
-std::size_t check_checkpoint(const Checkpoint& checkpoint) {
+std::size_t check_checkpoint(const Checkpoint& checkpoint, bool meshability) {
   std::size_t defects = 0;
   FieldResult field;
   for (const StageEntry& stage : checkpoint.stages()) {
@@ -44,6 +64,7 @@ std::size_t check_checkpoint(const Checkpoint& checkpoint) {
       const auto graph = singularity_graph(field.mesh, field.features, field.field, field.codes);
       defects +=
           print_all(check(field.mesh, field.field)) + print_all(check(field.mesh, field.field, field.codes, graph));
+      if (meshability) defects += print_meshability(field);
     } else if (stage.name == "seamless") {
       unpack_seamless(arrays, field.mesh.num_tets());
     } else if (stage.name == "igm") {
@@ -95,7 +116,7 @@ std::optional<HexMesh> as_hex_mesh(const std::string& file) {
 ExitCode check_command(const CheckLine& line) {
   return on_rank_zero([&] {
     if (looks_like_checkpoint(line.file)) {
-      return verdict(check_checkpoint(Checkpoint::open(line.file)), ExitCode::bad_input);
+      return verdict(check_checkpoint(Checkpoint::open(line.file), line.meshability), ExitCode::bad_input);
     }
     if (const auto hexes = as_hex_mesh(line.file))
       return verdict(check_hexes(*hexes, line.against), ExitCode::bad_hex_mesh);
@@ -110,6 +131,8 @@ void add_check(CLI::App& app, Action& action) {
   auto line = std::make_shared<CheckLine>();
   command->add_option("FILE", line->file, "Mesh or run.h5")->required();
   command->add_option("--against", line->against, "Tet mesh that the hex mesh was made from")->type_name("TETS");
+  command->add_flag("--meshability", line->meshability,
+                    "Also look for a local map around every edge and vertex of the field of a checkpoint");
   command->callback([line, &action] { action = [line] { return check_command(*line); }; });
 }
 

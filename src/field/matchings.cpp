@@ -110,6 +110,50 @@ void FieldAttribute::on_split(const TetMesh& mesh, const SplitRecord& record) {
     slot(field_, n.half_face) = n.origin.valid() ? field_.matching(n.origin) : octahedral::identity;
 }
 
+void FieldAttribute::on_collapse(const TetMesh&, const CollapseRecord& record) {
+  for (const auto& m : record.merged) {
+    const bool inner = m.beyond_from.valid() && m.beyond_to.valid();
+    // From the tet beyond the face at `from` through the removed tet to the one beyond the face at `to`.
+    const auto through =
+        inner ? octahedral::product(octahedral::inverse(field_.matching(m.at_from)), field_.matching(m.at_to))
+              : octahedral::identity;
+    if (m.beyond_from.valid()) slot(field_, m.beyond_from) = through;
+    if (m.beyond_to.valid()) slot(field_, m.beyond_to) = octahedral::inverse(through);
+  }
+}
+
+void FieldAttribute::on_swap(const TetMesh& mesh, const SwapRecord& record) {
+  field_.frames.resize(mesh.num_tets(), Quaternion::Identity());
+  field_.matchings.resize(mesh.num_tets(), {});
+  std::vector<octahedral::Rotation> to(record.removed.size(), octahedral::order);  // matching from removed[0]
+  const auto position = [&](TetId t) {
+    return static_cast<std::size_t>(std::find(record.removed.begin(), record.removed.end(), t) -
+                                    record.removed.begin());
+  };
+  to[0] = octahedral::identity;
+  for (const auto& [from, across] : record.crossings) {
+    const auto m = octahedral::product(to[position(from.tet())], field_.matching(from));
+    auto& known = to[position(across.tet())];
+    require(known == octahedral::order || known == m, "A singular edge was swapped.");
+    known = m;
+  }
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    const Quaternion q = field_.frames[record.removed[k].index()] * octahedral::quaternion(octahedral::inverse(to[k]));
+    sum += q.coeffs().dot(sum) < 0 ? Eigen::Vector4d(-q.coeffs()) : q.coeffs();
+  }
+  const Quaternion mean =
+      sum.norm() > 1e-6 ? Quaternion(Eigen::Vector4d(sum.normalized())) : field_.frames[record.removed[0].index()];
+  for (const auto& [t, like] : record.added) field_.frames[t.index()] = mean;
+  for (const NewHalfFace& n : record.half_faces) {
+    const auto m = n.origin.valid() && !mesh.is_boundary(n.half_face)
+                       ? octahedral::product(to[position(n.origin.tet())], field_.matching(n.origin))
+                       : octahedral::identity;
+    slot(field_, n.half_face) = m;
+    if (!mesh.is_boundary(n.half_face)) slot(field_, mesh.opposite_half_face(n.half_face)) = octahedral::inverse(m);
+  }
+}
+
 void FieldAttribute::on_compact(const std::vector<TetId>& new_tet) {
   std::size_t alive = 0;
   for (std::size_t i = 0; i < new_tet.size(); ++i) {

@@ -159,6 +159,20 @@ void CodesAttribute::on_split(const TetMesh&, const SplitRecord& record) {
   for (VertexId v : record.parents) codes_[edge_key(v, record.new_vertex)] = code;
 }
 
+void CodesAttribute::on_collapse(const TetMesh&, const CollapseRecord& record) {
+  codes_.erase(edge_key(record.from, record.to));
+  for (VertexId x : record.neighbours) {
+    const auto found = codes_.find(edge_key(record.from, x));
+    if (found == codes_.end()) continue;
+    codes_.emplace(edge_key(record.to, x), found->second);
+    codes_.erase(found);
+  }
+}
+
+void CodesAttribute::on_swap(const TetMesh&, const SwapRecord& record) {
+  require(!record.removed_edge[0].valid() || codes_.count(record.removed_edge) == 0, "A singular edge was swapped.");
+}
+
 void CodesAttribute::on_compact(const std::vector<TetId>&) {}
 
 }  // namespace hexfield

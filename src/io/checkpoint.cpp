@@ -99,18 +99,29 @@ IterateRing::IterateRing(fs::path directory, std::string name, std::string basis
 fs::path IterateRing::slot(int k) const { return directory_ / fmt::format("iterate-{}.{}.h5", name_, k); }
 
 void IterateRing::save(const std::vector<double>& values) {
-  if (next_ < 0) newest();
   NamedArrays arrays;
   arrays.view<double>("values", values, 1);
+  save(arrays);
+}
+
+void IterateRing::save(const NamedArrays& values) {
+  if (next_ < 0) newest_arrays();
   write_container(slot(static_cast<int>(next_ % 2)), [&](hdf5::File& fresh) {
     fresh.set_text("/", "sequence", std::to_string(next_));
-    write_stage(fresh, {"iterate", basis_, "{}"}, arrays);
+    write_stage(fresh, {"iterate", basis_, "{}"}, values);
   });
   ++next_;
 }
 
 std::optional<std::vector<double>> IterateRing::newest() {
-  std::optional<std::vector<double>> best;
+  const auto arrays = newest_arrays();
+  if (!arrays) return std::nullopt;
+  const auto values = arrays->get<double>("values", 1);
+  return std::vector<double>(values.begin(), values.end());
+}
+
+std::optional<NamedArrays> IterateRing::newest_arrays() {
+  std::optional<NamedArrays> best;
   long long best_sequence = -1;
   for (int k : {0, 1}) {
     std::error_code failure;
@@ -119,9 +130,7 @@ std::optional<std::vector<double>> IterateRing::newest() {
       const hdf5::File file = open_container(slot(k));
       const long long sequence = std::stoll(file.get_text("/", "sequence"));
       if (file.get_text("iterate", "basis") != basis_ || sequence <= best_sequence) continue;
-      const NamedArrays arrays = file.read("iterate");
-      const auto values = arrays.get<double>("values", 1);
-      best.emplace(values.begin(), values.end());
+      best.emplace(file.read("iterate"));
       best_sequence = sequence;
     } catch (const std::exception&) {
       continue;  // The other slot is the older, whole one.

@@ -7,14 +7,8 @@
 
 namespace hexfield {
 
-/// Regularised distortion of Garanzha et al. 2021, finite also for inverted tets: with D = det J and
-/// chi = (D + sqrt(D^2 + epsilon^2)) / 2, the energy |J|^2 / chi^(2/3) + (D^2 + 1) / chi.
-double untangle_energy(const Mat3& jacobian, double epsilon);
-/// Also the gradient and a positive-semidefinite Hessian (det J linearised; what is left is clamped).
-double untangle_energy(const Mat3& jacobian, double epsilon, Eigen::Matrix<double, 9, 1>& gradient,
-                       Eigen::Matrix<double, 9, 9, Eigen::RowMajor>& hessian);
-
-/// Weighted sum of it over tets whose corner coordinates are affine in global unknowns (as TetEnergy).
+/// Weighted sum of solve::untangle_energy() over tets whose corner coordinates are affine in global unknowns (as
+/// TetEnergy).
 class UntangleEnergy final : public solve::EnergyTerm {
  public:
   void add(const solve::GradientOperator& gradient, double weight, const std::array<solve::AffineScalar, 12>& corners,

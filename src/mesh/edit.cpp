@@ -104,6 +104,14 @@ VertexId split(TetMesh& mesh, std::vector<VertexId> parents, std::vector<TetId> 
 
 }  // namespace
 
+void MeshAttribute::on_collapse(const TetMesh&, const CollapseRecord&) {
+  throw Error(ExitCode::bug, "An attribute of the mesh cannot follow a collapse.");
+}
+
+void MeshAttribute::on_swap(const TetMesh&, const SwapRecord&) {
+  throw Error(ExitCode::bug, "An attribute of the mesh cannot follow a swap.");
+}
+
 FaceKey origin_face(const TetMesh& mesh, const SplitRecord& record, const NewHalfFace& half_face) {
   FaceKey face = mesh.key(half_face.half_face);
   const auto position = std::find(face.begin(), face.end(), record.new_vertex);

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <unordered_set>
+#include <array>
 
 #include "hexfield/mesh/tet_mesh.hpp"
 
@@ -20,6 +20,42 @@ std::array<int, 2> wing_vertices(const TetMesh& mesh, TetId t, VertexId a, Verte
   if (inversions % 2 != 0) std::swap(order[2], order[3]);
   return {order[2], order[3]};
 }
+
+// Set of tets by open addressing: on the stack as long as it is small.
+class SeenTets {
+ public:
+  // False when it was there already.
+  bool insert(TetId t) {
+    if (2 * (size_ + 1) > slots_) grow();
+    return place(t);
+  }
+
+ private:
+  bool place(TetId t) {
+    TetId* table = large_.empty() ? small_.data() : large_.data();
+    for (std::size_t i = hash(t);; i = (i + 1) % slots_) {
+      if (table[i] == t) return false;
+      if (table[i].valid()) continue;
+      table[i] = t;
+      ++size_;
+      return true;
+    }
+  }
+  std::size_t hash(TetId t) const { return t.index() * 0x9E3779B1u % slots_; }
+  void grow() {
+    const std::vector<TetId> old = large_.empty() ? std::vector<TetId>(small_.begin(), small_.end()) : large_;
+    slots_ *= 4;
+    size_ = 0;
+    large_.assign(slots_, TetId());
+    for (TetId t : old)
+      if (t.valid()) place(t);
+  }
+
+  std::size_t slots_ = 128;
+  std::size_t size_ = 0;
+  std::array<TetId, 128> small_{};
+  std::vector<TetId> large_;
+};
 
 }  // namespace
 
@@ -53,14 +89,16 @@ std::vector<TetId> vertex_star(const TetMesh& mesh, VertexId v) {
   std::vector<TetId> star;
   const TetId seed = mesh.vertex_tet[v.index()];
   if (!seed.valid()) return star;
-  std::unordered_set<TetId> seen{seed};
+  SeenTets seen;
+  star.reserve(48);
   star.push_back(seed);
+  seen.insert(seed);
   for (std::size_t i = 0; i < star.size(); ++i) {
     const TetId t = star[i];
     for (int f = 0; f < 4; ++f) {
       if (mesh.vertices(t)[static_cast<std::size_t>(f)] == v) continue;
       const HalfFaceId o = mesh.opposite_half_face(HalfFaceId(t, f));
-      if (o.valid() && seen.insert(o.tet()).second) star.push_back(o.tet());
+      if (o.valid() && seen.insert(o.tet())) star.push_back(o.tet());
     }
   }
   std::sort(star.begin(), star.end());

@@ -23,11 +23,16 @@ struct FrameField {
   }
 };
 
-/// Lets a FrameField follow splits: children inherit the frame and the outer matchings, inner faces identity.
+/// Lets a FrameField follow edits. Splits: children inherit the frame and the outer matchings, inner faces identity.
+/// Collapses: two faces that become one get the product of their matchings. Swaps: everything in the chart of the
+/// first old tet, where the new tets share the mean frame; inner faces identity. Monodromies of all edges that
+/// an edit neither makes nor merges stay; the edge of a swap must be regular.
 class FieldAttribute : public MeshAttribute {
  public:
   explicit FieldAttribute(FrameField& field) : field_(field) {}
   void on_split(const TetMesh& mesh, const SplitRecord& record) override;
+  void on_collapse(const TetMesh& mesh, const CollapseRecord& record) override;
+  void on_swap(const TetMesh& mesh, const SwapRecord& record) override;
   void on_compact(const std::vector<TetId>& new_tet) override;
 
  private:

@@ -22,11 +22,14 @@ int split_for_features(TetMesh& mesh, const Features& features, const std::vecto
 int split_for_singularities(TetMesh& mesh, const Features& features, const EdgeCodes& codes,
                             const std::vector<MeshAttribute*>& attributes);
 
-/// Lets EdgeCodes follow splits: both halves of a singular edge inherit the code.
+/// Lets EdgeCodes follow edits: both halves of a split singular edge inherit the code; collapsed edges take the code
+/// of the one that is singular (the caller recomputes where both are); the edge of a swap is regular.
 class CodesAttribute : public MeshAttribute {
  public:
   explicit CodesAttribute(EdgeCodes& codes) : codes_(codes) {}
   void on_split(const TetMesh& mesh, const SplitRecord& record) override;
+  void on_collapse(const TetMesh& mesh, const CollapseRecord& record) override;
+  void on_swap(const TetMesh& mesh, const SwapRecord& record) override;
   void on_compact(const std::vector<TetId>& new_tet) override;
 
  private:

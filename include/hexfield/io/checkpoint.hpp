@@ -74,8 +74,11 @@ class IterateRing {
   IterateRing(std::filesystem::path directory, std::string name, std::string basis);
 
   /// Writes into the older slot. Throws Error(bad_input) when the disk does not take it.
+  void save(const NamedArrays& values);
   void save(const std::vector<double>& values);
   /// The newest whole iterate of this basis; nullopt when there is none. Torn and foreign slots are passed over.
+  std::optional<NamedArrays> newest_arrays();
+  /// The same for one that was saved as a vector.
   std::optional<std::vector<double>> newest();
   /// Removes every iterate of the directory.
   static void remove_all(const std::filesystem::path& directory);

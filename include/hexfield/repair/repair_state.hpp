@@ -3,19 +3,13 @@
 #include <set>
 #include <vector>
 
-#include "hexfield/field/frame_field.hpp"
-#include "hexfield/mesh/features.hpp"
-#include "hexfield/mesh/tet_mesh.hpp"
+#include "hexfield/field/compute_field.hpp"
 
 namespace hexfield {
 
 /// What stage 3 works on: the mesh with its features, the field with its codes, and what the repair needs to
 /// remember between operations. Held whole by one rank.
-struct RepairState {
-  TetMesh mesh;
-  Features features;
-  FrameField field;
-  EdgeCodes codes;
+struct RepairState : FieldResult {
   std::vector<double> target_length;  ///< per vertex: mean length of its edges in the input, kept under splits
   std::map<EdgeKey, int> pairs;       ///< singular edges of two arcs made by one unzipping share an id; they repel
   std::set<EdgeKey> kept;             ///< singular edges that must stay on their feature surface

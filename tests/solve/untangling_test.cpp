@@ -1,4 +1,4 @@
-#include "../../src/map/untangle_energy.hpp"
+#include "hexfield/solve/untangling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <random>
 
 using namespace hexfield;
+using solve::untangle_energy;
 
 namespace {
 
