@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "hexfield/field/edge_codes.hpp"
-#include "hexfield/field/singularity_graph.hpp"
-#include "hexfield/repair/field_snapshot.hpp"
 #include "hexfield/repair/one_ring.hpp"
 #include "hexfield/repair/state_ops.hpp"
-#include "hexfield/repair/zipping.hpp"
+
+#include "strip_zipping.hpp"
 
 namespace hexfield {
 namespace {
@@ -16,57 +15,29 @@ using octahedral::Label;
 
 VertexId other_end(const EdgeKey& edge, VertexId v) { return edge[0] == v ? edge[1] : edge[0]; }
 
-bool is_defect(const RepairState& state, VertexId v) {
-  const auto edges = singular_edges_at(state, v);
-  if (edges.empty()) return false;
-  const NodeKind kind = classify_vertex(state.mesh, state.features, state.field, state.codes, v, edges).kind;
-  return kind != NodeKind::arc && kind != NodeKind::node;
+// In a feature face, or special itself: no spoke for a vertex on a feature.
+bool is_held(const RepairState& state, VertexId a, VertexId b) {
+  if (is_special(state, edge_key(a, b))) return true;
+  const EdgeRing ring = ring_of(state.mesh, a, b);
+  return !ring.closed || std::ranges::any_of(ring.crossings, [&](HalfFaceId h) { return is_feature_face(state, h); });
 }
 
-long num_defects(const RepairState& state, const Strip& strip) {
-  std::set<VertexId> vertices(strip.first.begin(), strip.first.end());
-  vertices.insert(strip.second.begin(), strip.second.end());
-  return std::ranges::count_if(vertices, [&](VertexId v) { return is_defect(state, v); });
-}
-
-// Inner edges of one side of a strip: their sign is known, and they repel those of the other side.
-void mark_side(RepairState& state, const std::vector<VertexId>& side, EdgeCode code, int pair) {
-  for (std::size_t i = 0; i + 1 < side.size(); ++i) {
-    const EdgeKey e = edge_key(side[i], side[i + 1]);
-    if (!state.codes.contains(e)) continue;
-    if (state.features.edges.contains(e) || !ring_of(state.mesh, e[0], e[1]).closed) {
-      state.kept.insert(e);
-      continue;
+// Splits the inner faces at v between two held edges, so that spokes get past everywhere.
+void free_spokes(RepairState& state, VertexId v) {
+  std::set<FaceKey> narrow;
+  for (TetId t : vertex_star(state.mesh, v))
+    for (int f = 0; f < 4; ++f) {
+      const HalfFaceId h(t, f);
+      if (state.mesh.vertices(t)[static_cast<std::size_t>(f)] == v || is_feature_face(state, h)) continue;
+      const auto corners = state.mesh.face_vertices(h);
+      if (std::ranges::all_of(corners, [&](VertexId w) { return w == v || is_held(state, v, w); }))
+        narrow.insert(state.mesh.key(h));
     }
-    state.codes[e] = code;
-    state.pairs[e] = pair;
-  }
-}
-
-int new_pair(const RepairState& state) {
-  int pair = 0;
-  for (const auto& [edge, id] : state.pairs) pair = std::max(pair, id + 1);
-  return pair;
-}
-
-// Zips and keeps the result if there are fewer defects than before.
-bool zip_strip(RepairState& state, const Strip& strip, const EdgeKey& start, octahedral::Rotation target,
-               EdgeCode first_code, const ZipperOptions& options) {
-  const long before = num_defects(state, strip);
-  const FieldSnapshot snapshot(state, tets_touching(state.mesh, strip.faces));
-  ZipOptions zip;
-  zip.sweeps = 0;
-  if (!zip_patch(state, {strip.faces, start, strip.boundary()}, target, zip)) return false;
-  const int pair = new_pair(state);
-  mark_side(state, strip.first, first_code, pair);
-  mark_side(state, strip.second, -first_code, pair);
-  smooth(state, tets_touching(state.mesh, strip.faces), options.sweeps, SingularSign::by_code);
-  if (num_defects(state, strip) < before) return true;
-  snapshot.restore(state);
-  return false;
+  for (const FaceKey& face : narrow) split_face(state, find_half_face(state.mesh, face));
 }
 
 std::optional<Strip> strip_beside(RepairState& state, const GuidedPath& path, VertexId start, bool split_start) {
+  for (std::size_t i = 0; i < path.held; ++i) free_spokes(state, path.vertices[i]);
   StripRequest request;
   request.path = path.vertices;
   request.start = start;
@@ -91,8 +62,8 @@ HalfFaceId middle_face(const TetMesh& mesh, const SurfaceSector& sector, VertexI
 
 bool open_sector(RepairState& state, VertexId v, const SurfaceSector& sector, const ZipperOptions& options) {
   const HalfFaceId face = middle_face(state.mesh, sector, v);
-  const Label u = octahedral::negate(
-      closest_label(state.field.frames[face.tet().index()], outward_normal(state.mesh, face)));
+  const Label u =
+      octahedral::negate(closest_label(state.field.frames[face.tet().index()], outward_normal(state.mesh, face)));
   Vec3 middle = Vec3::Zero();
   for (VertexId end : {sector.first, sector.last}) middle += (state.mesh.point(end) - state.mesh.point(v)).normalized();
   const VertexId inside = split_face(state, face);
@@ -101,15 +72,9 @@ bool open_sector(RepairState& state, VertexId v, const SurfaceSector& sector, co
   if (!path) return false;
   const auto strip = strip_beside(state, *path, inside, true);
   if (!strip || strip->second.size() < 2) return false;
-  // The first edge of the second side gets the code -1 along u.
   const VertexId from = strip->second[0];
-  const EdgeKey e = edge_key(from, strip->second[1]);
-  const TetId first = ring_of(state.mesh, e[0], e[1]).tets.front();
-  const auto star = flow_star(state, {from, find_tet_with_edge(state.mesh, v, from)});
-  const auto place = std::ranges::find(star, first, &FlowPlace::tet);
-  if (place == star.end()) return false;
-  const Label along = e[0] == from ? label_at(*place, u) : octahedral::negate(label_at(*place, u));
-  return zip_strip(state, *strip, e, octahedral::quarter_turn(octahedral::negate(along)), 1, options);
+  const auto target = code_target(state, from, strip->second[1], find_tet_with_edge(state.mesh, v, from), u, -1);
+  return target && zip_strip(state, *strip, *target, 1, options);
 }
 
 }  // namespace
@@ -143,15 +108,23 @@ std::optional<GuidedPath> lay_guided_path(RepairState& state, const FlowPlace& s
   return path;
 }
 
-bool unzip_sector_transversally(RepairState& state, VertexId v, const ZipperOptions& options) {
-  isolate_star(state, v);
+namespace {
+
+std::optional<SurfaceSector> empty_outer_sector(RepairState& state, VertexId v) {
   const OneRing ring(state, v);
-  for (const SurfaceSector& sector : surface_sectors(state, ring)) {
-    const bool outside = std::ranges::all_of(sector.faces, [&](HalfFaceId h) { return state.mesh.is_boundary(h); });
-    if (outside && sector.quads == 0 && open_sector(state, v, sector, options)) return true;
-    if (outside && sector.quads == 0) return false;  // the mesh has changed
-  }
-  return false;
+  for (const SurfaceSector& sector : surface_sectors(state, ring))
+    if (sector.quads == 0 && std::ranges::all_of(sector.faces, [&](HalfFaceId h) { return state.mesh.is_boundary(h); }))
+      return sector;
+  return {};
+}
+
+}  // namespace
+
+bool unzip_sector_transversally(RepairState& state, VertexId v, const ZipperOptions& options) {
+  if (!empty_outer_sector(state, v)) return false;
+  isolate_star(state, v);
+  const auto sector = empty_outer_sector(state, v);
+  return sector && open_sector(state, v, *sector, options);
 }
 
 bool unzip_along_guide(RepairState& state, VertexId v, const EdgeKey& edge, const ZipperOptions& options) {
@@ -165,23 +138,24 @@ bool unzip_along_guide(RepairState& state, VertexId v, const EdgeKey& edge, cons
   Vec3 inside = Vec3::Zero();
   for (const FlowPlace& p : flow_star(state, start))
     for (int f = 0; f < 4; ++f)
-      if (const HalfFaceId h(p.tet, f); is_feature_face(state, h) &&
-                                        state.mesh.vertices(p.tet)[static_cast<std::size_t>(f)] != v)
+      if (const HalfFaceId h(p.tet, f);
+          is_feature_face(state, h) && state.mesh.vertices(p.tet)[static_cast<std::size_t>(f)] != v)
         inside -= outward_normal(state.mesh, h);
   const auto path = lay_guided_path(state, start, octahedral::negate(out), inside, options);
   if (!path) return false;
   const auto strip = strip_beside(state, *path, end, false);
-  return strip && zip_strip(state, *strip, strip->start, octahedral::identity, -code, options);
+  return strip && zip_strip(state, *strip, {strip->start, octahedral::identity}, -code, options);
 }
 
 int repair_constrained_zipper_nodes(RepairState& state, const ZipperOptions& options) {
   std::set<VertexId> nodes;
   for (const auto& [edge, code] : state.codes)
     for (VertexId v : edge)
-      if (on_boundary(state.mesh, v) && is_defect(state, v) && !is_free_zipper(state, v)) nodes.insert(v);
+      if (kind_of(state, v) == NodeKind::zipper && on_boundary(state.mesh, v) && !is_free_zipper(state, v))
+        nodes.insert(v);
   int repaired = 0;
   for (VertexId v : nodes) {
-    if (!is_defect(state, v)) continue;
+    if (kind_of(state, v) != NodeKind::zipper) continue;
     bool done = unzip_sector_transversally(state, v, options);
     for (const EdgeKey& edge : singular_edges_at(state, v))
       if (!done && !state.features.edges.contains(edge)) done = unzip_along_guide(state, v, edge, options);

@@ -51,8 +51,7 @@ Label label_at(const FlowPlace& place, Label reference) {
 }
 
 Vec3 in_space(const RepairState& state, const FlowPlace& place, const Vec3& reference) {
-  return state.field.frames[place.tet.index()] *
-         octahedral::apply(octahedral::inverse(place.to_start), reference);
+  return state.field.frames[place.tet.index()] * octahedral::apply(octahedral::inverse(place.to_start), reference);
 }
 
 std::vector<FlowPlace> flow_star(const RepairState& state, const FlowPlace& place) {

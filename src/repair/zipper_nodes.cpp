@@ -170,8 +170,9 @@ int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
       paths[i] =
           find_unzip_path(state, unzip_seeds(state, free_zipper_at(state, zippers[i].node)),
                           unzip_partners(state, left_of(state, zippers, consumed)), blocked, consumed, options.search);
+    if (!paths[i]) continue;  // the next pass sees another field
     Strip strip;
-    if (!paths[i] || !unzip(state, *paths[i], options, &strip)) continue;
+    if (!unzip(state, *paths[i], options, &strip)) continue;
     blocked.insert(strip.faces.begin(), strip.faces.end());
     consumed.insert(zippers[i].node);
     if (paths[i]->partner) consumed.insert(paths[i]->partner->node);

@@ -124,3 +124,37 @@ TEST(ZipperNodes, APatchThatReachesATransversalBoundaryLeavesOneZipperNode) {
   EXPECT_EQ(defects(state), std::vector<std::string>());
   EXPECT_EQ(arcs_through(state), (std::map<EdgeCode, int>{{-1, 1}, {1, 1}}));
 }
+
+TEST(ZipperNodes, AnArcThatMeetsTheSurfaceWithReversedFlowUnzipsThroughTheDomain) {
+  RepairState state = box_state(5, 4, 4);
+  hexfield::testing::turn_face(state, {Vec3(0, 1, 1), Vec3(0, 2, 2), Vec3(1, 2, 2)}, 0, Vec3(0, 1, -1));
+  state.codes = compute_codes(state.mesh, state.features, state.field);
+  const VertexId tip = vertex_at(state.mesh, {1, 2, 2});
+  ASSERT_EQ(num_zippers(state), 1u);
+  ASSERT_TRUE(is_free_zipper(state, tip));
+  // The sign of the whole arc is that of its plus side: the zipper node moves into the surface.
+  EdgeKey minus{};
+  for (const EdgeKey& e : singular_edges_at(state, tip))
+    if (state.codes.at(e) == -1) minus = e;
+  state.codes[minus] = 1;
+  const VertexId end = minus[0] == tip ? minus[1] : minus[0];
+  ASSERT_TRUE(is_free_zipper(state, end));
+  const auto selected = select_free_zippers(state);
+  ASSERT_EQ(selected.size(), 1u);
+  EXPECT_EQ(selected[0].node, end);
+  EXPECT_EQ(unzip_free_zipper_nodes(state), 1);
+  EXPECT_EQ(sentences(check(state)), "");
+  EXPECT_EQ(defects(state), std::vector<std::string>());
+  EXPECT_EQ(arcs_through(state), (std::map<EdgeCode, int>{{-1, 1}, {1, 1}}));
+}
+
+TEST(ZipperNodes, AZipperNodeBesideTheBoundaryIsZipped) {
+  RepairState state = box_state(5, 4, 4);
+  const EdgeCodes before = state.codes;
+  hexfield::testing::turn_face(state, {Vec3(0, 1, 1), Vec3(0, 2, 2), Vec3(1, 2, 2)}, 0, Vec3(0, 1, -1));
+  state.codes = compute_codes(state.mesh, state.features, state.field);
+  ASSERT_EQ(num_zippers(state), 1u);
+  EXPECT_EQ(zip_near_boundary(state), 1);
+  EXPECT_EQ(state.codes, before);
+  EXPECT_EQ(sentences(check(state)), "");
+}

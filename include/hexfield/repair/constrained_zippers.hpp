@@ -15,9 +15,9 @@ namespace hexfield {
 /// The first side of a strip: vertices on a guide, then new vertices of a free path, to a transversal boundary.
 struct GuidedPath {
   std::vector<VertexId> vertices;
-  std::size_t held = 0;         ///< so many lie on the guide
-  std::vector<Vec3> side;       ///< per vertex: the wanted side, carried along by the field
-  VertexId exit;                ///< new vertex in the boundary face where the guide ends; invalid after a free path
+  std::size_t held = 0;    ///< so many lie on the guide
+  std::vector<Vec3> side;  ///< per vertex: the wanted side, carried along by the field
+  VertexId exit;           ///< new vertex in the boundary face where the guide ends; invalid after a free path
 };
 
 /// Follows u (label of start's tet) along feature curves and beyond, and inserts the path. Nothing, and nothing has

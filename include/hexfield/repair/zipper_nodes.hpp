@@ -31,7 +31,8 @@ bool unzip(RepairState& state, const UnzipPath& path, const ZipperOptions& optio
 
 /// Selects free zipper nodes, searches for all of them in parallel, and unzips them, those of the longest arcs
 /// first; a search is done again when an earlier unzip touched its path. Surfaces of this pass are not crossed.
-/// Returns the number of zipper nodes unzipped (a partner counts).
+/// Where no path is found the node stays: the next pass sees another field. Returns the number of zipper nodes unzipped
+/// (a partner counts).
 int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options = {});
 
 /// (S1) Zipping near the boundary: both arcs of a free zipper node end on the boundary one edge away, at vertices
