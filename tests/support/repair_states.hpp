@@ -87,6 +87,22 @@ inline std::vector<std::array<Vec3, 3>> slanted_triangles(const Vec3& corner, in
   return triangles;
 }
 
+/// A sheet of vertical triangles that hangs from (up < 0) or stands on (up > 0) the line through `p` along x (axis 0)
+/// or y (axis 1) to the end of the box; its matchings make the line an arc of this code, the edge of the box's face
+/// below gets the opposite. All frames must be equal. Codes are not updated.
+inline void add_straight_arc(RepairState& state, const Vec3& p, int axis, int up, EdgeCode code) {
+  const Vec3 along = Vec3::Unit(axis), z = Vec3::UnitZ();
+  const Vec3 normal = along.cross(up * z);
+  const auto about = static_cast<octahedral::Label>(2 * axis + (code > 0 ? 0 : 1));
+  Vec3 q = p;
+  for (q[axis] = 0; vertex_at(state.mesh, q + along).valid(); q[axis] += 1, q.z() = p.z())
+    for (q.z() = up < 0 ? p.z() - 1 : p.z(); vertex_at(state.mesh, q).valid() && vertex_at(state.mesh, q + z).valid();
+         q.z() += up) {
+      turn_face(state, {q, q + along, q + along + z}, about, normal);
+      turn_face(state, {q, q + z, q + along + z}, about, normal);
+    }
+}
+
 /// A random gauge change of every tet; returns the rotations.
 inline std::vector<octahedral::Rotation> shuffle_gauges(RepairState& state, unsigned seed) {
   std::mt19937 random(seed);

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "hexfield/repair/meshability.hpp"
+#include "hexfield/repair/ring_search.hpp"
+
+/// Repair of vertices (Liu and Bommes 2023 sections 4.3, 4.4 and 5.2, "Establishing meshable vertices"; spec-lmff
+/// sections 5.3 and 5.5). Operations work in the one-ring of a vertex and change only tets that touch it. When one
+/// returns false the mesh may have been refined there, the field is as it was. Nothing here is collective.
+namespace hexfield {
+
+/// Where an operation looks for the second edge.
+struct RingScope {
+  RingTarget target = RingTarget::free_arc;
+  bool cross_surfaces = false;
+  bool from_surface = false;  ///< start from singular edges in feature faces too (last resort of section 5.5)
+};
+
+/// (DT1) Singular arc detachment: two arcs of equal code through which a streamline passes leave the vertex as one.
+/// Of arcs in one region those closest to 180 degrees come first.
+bool detach_arc(RepairState& state, VertexId v, const RingScope& scope = {});
+/// (DT2) Zipper node detachment: two parallel arcs of opposite code leave the vertex; they meet at a zipper node.
+bool detach_zipper(RepairState& state, VertexId v, const RingScope& scope = {});
+/// (DT3) Arc unzipping: as DT1 with an edge of another code, which keeps the difference: a zipper node at its end.
+bool unzip_arc(RepairState& state, VertexId v, const RingScope& scope = {RingTarget::any_edge});
+/// (DT4) Parabolic sector reversal: as DT2 with an edge of another code, which keeps the sum.
+bool reverse_sector(RepairState& state, VertexId v, const RingScope& scope = {RingTarget::any_edge});
+/// DT1 of a boundary-truncated sector: an arc leaves the vertex through the boundary face where its streamline goes
+/// out (through) or, with reversed flow, comes in (parallel).
+bool detach_to_boundary(RepairState& state, VertexId v, Flow flow);
+/// (DT5) Transversal arc unzipping of a fully constrained parabolic sector: a sector of a feature surface between two
+/// special edges, one of them a feature, that holds no quad gets one by quarter-turns about the surface normal on
+/// both sides of the surface; then DT1 and DT2 clean up.
+bool unzip_transversally(RepairState& state, VertexId v);
+
+struct VertexRepairOptions {
+  int rounds = 10;         ///< operations per vertex
+  bool reversals = true;   ///< DT3 and DT4 with edges of other codes, which leave zipper nodes on features
+  VertexMapOptions map{};  ///< of the meshability test
+};
+
+/// Is there anything to repair at v? Vertices with compound edges are left to edge repairs; counts of codes decide
+/// where they can, else the map of the one-ring does.
+bool needs_repair(const RepairState& state, VertexId v, const VertexRepairOptions& options = {});
+
+/// Tries the operations in the order of spec-lmff section 5.5 for an inner vertex, one on an inner feature surface or
+/// one on the boundary, while they succeed and the vertex is not meshable. Editable must be all tets that touch the
+/// tets at v (Place with rings = 1). Returns whether the field changed; if not, neither did the mesh. Copies `local`
+/// for each try.
+bool repair_vertex(RepairState& local, VertexId v, const VertexRepairOptions& options = {});
+
+}  // namespace hexfield
