@@ -58,7 +58,7 @@ std::size_t check_checkpoint(const Checkpoint& checkpoint, bool meshability) {
     if (stage.name == "read") {
       const TetInput input = unpack_tet_input(arrays);
       defects += print_all(check(input.mesh)) + print_all(check(input.mesh, input.features));
-    } else if (stage.name == "field") {
+    } else if (stage.name == "field" || stage.name == "repair") {
       field = unpack_field(arrays);
       defects += print_all(check(field.mesh)) + print_all(check(field.mesh, field.features));
       const auto graph = singularity_graph(field.mesh, field.features, field.field, field.codes);

@@ -101,6 +101,7 @@ void add_run(CLI::App& app, Action& action) {
             "SECONDS");
   add_keyed(*command, *line, "--formats", "formats", "Formats of the hex mesh: vtk,vtu,msh,msh22,mesh,inp", "LIST");
   add_keyed(*command, *line, "--feature-angle", "feature_angle", "Sharp edges where the input has no tags (70)", "DEG");
+  add_keyed(*command, *line, "--tries", "tries", "Settings of the field repair to try before giving up (4)", "K");
   add_keyed(*command, *line, "--seed", "seed", "Of anything random (0)", "S");
   command->add_flag("--check", line->check, "Check every value between the stages");
   auto* verbose = command->add_flag("-v,--verbose", line->verbose, "Say more");

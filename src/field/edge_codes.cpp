@@ -170,18 +170,40 @@ Label outgoing_label(const TetMesh& mesh, const FrameField& field, const EdgeRin
 }
 
 std::vector<std::pair<EdgeKey, TetId>> all_edges(const TetMesh& mesh) {
+  // A bucket per lower vertex, each sorted by the higher one and then by tet: no sort of the whole list.
+  using Entry = std::pair<VertexId, TetId>;
+  const std::size_t n = mesh.num_vertices();
+  std::vector<std::size_t> starts(n + 1, 0);
+  auto for_each_edge = [&](const auto& visit) {
+    for (std::size_t i = 0; i < mesh.num_tets(); ++i) {
+      const TetId t(static_cast<std::int64_t>(i));
+      if (!mesh.alive(t)) continue;
+      const auto& v = mesh.vertices(t);
+      for (const auto& e : tet_edge_vertices)
+        visit(edge_key(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]), t);
+    }
+  };
+  for_each_edge([&](const EdgeKey& e, TetId) { ++starts[e[0].index() + 1]; });
+  for (std::size_t v = 0; v < n; ++v) starts[v + 1] += starts[v];
+  std::vector<Entry> entries(starts[n]);
+  std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
+  for_each_edge([&](const EdgeKey& e, TetId t) { entries[next[e[0].index()]++] = {e[1], t}; });
+  parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const auto first = entries.begin() + static_cast<std::ptrdiff_t>(starts[v]);
+      const auto last = entries.begin() + static_cast<std::ptrdiff_t>(starts[v + 1]);
+      std::sort(first, last);
+      const auto same = [](const Entry& x, const Entry& y) { return x.first == y.first; };
+      next[v] = static_cast<std::size_t>(std::unique(first, last, same) - entries.begin());  // end of what is left
+    }
+  });
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < n; ++v) count += next[v] - starts[v];
   std::vector<std::pair<EdgeKey, TetId>> edges;
-  edges.reserve(6 * mesh.num_tets());
-  for (std::size_t i = 0; i < mesh.num_tets(); ++i) {
-    const TetId t(static_cast<std::int64_t>(i));
-    if (!mesh.alive(t)) continue;
-    const auto& v = mesh.vertices(t);
-    for (const auto& e : tet_edge_vertices)
-      edges.emplace_back(edge_key(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]), t);
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end(), [](const auto& x, const auto& y) { return x.first == y.first; }),
-              edges.end());
+  edges.reserve(count);
+  for (std::size_t v = 0; v < n; ++v)
+    for (std::size_t k = starts[v]; k < next[v]; ++k)
+      edges.emplace_back(EdgeKey{VertexId(static_cast<std::int64_t>(v)), entries[k].first}, entries[k].second);
   return edges;
 }
 

@@ -12,19 +12,52 @@
 namespace hexfield {
 namespace {
 
-std::vector<idx_t> partition(const RootGraph& graph, int ranks) {
-  idx_t n = static_cast<idx_t>(graph.size());
-  std::vector<idx_t> part(graph.size(), 0);
+// The groups as nodes of a graph: which ones share an edge, and how many nodes each has.
+struct GroupGraph {
+  std::vector<idx_t> offsets{0}, columns, sizes;
+};
+
+GroupGraph grouped(const RootGraph& graph, const std::vector<std::int32_t>& group, std::int32_t num_groups) {
+  const auto n = static_cast<std::size_t>(num_groups);
+  std::vector<std::pair<std::int32_t, std::int32_t>> members(graph.size());
+  for (std::size_t i = 0; i < graph.size(); ++i) members[i] = {group[i], static_cast<std::int32_t>(i)};
+  std::sort(members.begin(), members.end());
+  GroupGraph g;
+  g.sizes.assign(n, 0);
+  std::vector<std::int32_t> seen_by(n, -1);
+  auto member = members.begin();
+  for (std::int32_t own = 0; own < num_groups; ++own) {
+    seen_by[static_cast<std::size_t>(own)] = own;
+    for (; member != members.end() && member->first == own; ++member) {
+      const auto i = static_cast<std::size_t>(member->second);
+      ++g.sizes[static_cast<std::size_t>(own)];
+      for (auto k = graph.offsets[i]; k < graph.offsets[i + 1]; ++k) {
+        const auto other =
+            static_cast<std::size_t>(group[static_cast<std::size_t>(graph.neighbours[static_cast<std::size_t>(k)])]);
+        if (seen_by[other] == own) continue;
+        seen_by[other] = own;
+        g.columns.push_back(static_cast<idx_t>(other));
+      }
+    }
+    g.offsets.push_back(static_cast<idx_t>(g.columns.size()));
+  }
+  return g;
+}
+
+// Part of every group.
+std::vector<idx_t> partition(const RootGraph& graph, const std::vector<std::int32_t>& group, std::int32_t num_groups,
+                             int ranks) {
+  idx_t n = num_groups;
+  std::vector<idx_t> part(static_cast<std::size_t>(n), 0);
   if (ranks == 1 || n == 0) return part;
   if (n <= 8 * ranks) {  // METIS may refuse graphs with fewer nodes than parts
     for (idx_t i = 0; i < n; ++i) part[static_cast<std::size_t>(i)] = static_cast<idx_t>(i * ranks / n);
     return part;
   }
-  std::vector<idx_t> offsets(graph.offsets.begin(), graph.offsets.end());
-  std::vector<idx_t> columns(graph.neighbours.begin(), graph.neighbours.end());
+  GroupGraph g = grouped(graph, group, num_groups);
   idx_t constraints = 1, parts = ranks, cut = 0;
-  const int code = METIS_PartGraphKway(&n, &constraints, offsets.data(), columns.data(), nullptr, nullptr, nullptr,
-                                       &parts, nullptr, nullptr, nullptr, &cut, part.data());
+  const int code = METIS_PartGraphKway(&n, &constraints, g.offsets.data(), g.columns.data(), g.sizes.data(), nullptr,
+                                       nullptr, &parts, nullptr, nullptr, nullptr, &cut, part.data());
   require(code == METIS_OK, "METIS could not cut the graph of the field.");
   return part;
 }
@@ -48,22 +81,20 @@ std::vector<T> receive(MPI_Comm comm) {
 
 struct Rows {
   std::vector<std::int64_t> offsets{0};
-  std::vector<std::int64_t> columns;  // new numbers, ascending
+  std::vector<std::int64_t> columns;  // new numbers
   std::vector<double> weights;
 };
 
 Rows cut_rows(const RootGraph& graph, const std::vector<std::int32_t>& order, const std::vector<std::int64_t>& number,
               std::int64_t begin, std::int64_t end) {
   Rows rows;
-  std::vector<std::pair<std::int64_t, double>> row;
   for (std::int64_t i = begin; i < end; ++i) {
     const auto old = static_cast<std::size_t>(order[static_cast<std::size_t>(i)]);
-    row.clear();
     for (auto k = static_cast<std::size_t>(graph.offsets[old]); k < static_cast<std::size_t>(graph.offsets[old + 1]);
-         ++k)
-      row.emplace_back(number[static_cast<std::size_t>(graph.neighbours[k])], graph.weights[k]);
-    std::sort(row.begin(), row.end());
-    for (const auto& [column, weight] : row) rows.columns.push_back(column), rows.weights.push_back(weight);
+         ++k) {
+      rows.columns.push_back(number[static_cast<std::size_t>(graph.neighbours[k])]);
+      rows.weights.push_back(graph.weights[k]);
+    }
     rows.offsets.push_back(static_cast<std::int64_t>(rows.columns.size()));
   }
   return rows;
@@ -71,7 +102,9 @@ Rows cut_rows(const RootGraph& graph, const std::vector<std::int32_t>& order, co
 
 }  // namespace
 
-NodeGraph::NodeGraph(MPI_Comm comm, const RootGraph& graph) : comm_(comm) {
+NodeGraph::NodeGraph(MPI_Comm comm, const RootGraph& graph, const std::vector<std::int32_t>& group,
+                     std::int32_t num_groups)
+    : comm_(comm) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -79,7 +112,9 @@ NodeGraph::NodeGraph(MPI_Comm comm, const RootGraph& graph) : comm_(comm) {
   std::vector<std::int64_t> number;
   agree(comm, [&] {
     if (rank != 0) return;
-    const std::vector<idx_t> part = partition(graph, ranks);
+    const std::vector<idx_t> part_of_group = partition(graph, group, num_groups, ranks);
+    std::vector<idx_t> part(graph.size());
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] = part_of_group[static_cast<std::size_t>(group[i])];
     order_.resize(graph.size());
     std::iota(order_.begin(), order_.end(), 0);
     std::stable_sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) {
@@ -95,7 +130,7 @@ NodeGraph::NodeGraph(MPI_Comm comm, const RootGraph& graph) : comm_(comm) {
   std::partial_sum(counts_.begin(), counts_.end(), starts.begin() + 1,
                    [](std::int64_t sum, int count) { return sum + count; });
   num_global_ = starts.back();
-  first = starts[static_cast<std::size_t>(rank)];
+  const std::int64_t first = starts[static_cast<std::size_t>(rank)];
   Rows rows;
   if (rank == 0) {
     for (int r = 1; r < ranks; ++r) {

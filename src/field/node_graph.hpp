@@ -13,10 +13,13 @@ namespace hexfield {
 
 /// The share of one rank: its owned nodes as rows, and the neighbours that other ranks own as ghosts.
 /// Nodes are renumbered such that each rank owns a contiguous range; local columns: owned, then ghosts.
+/// Owned nodes, and the neighbours in each row, keep the order of the whole graph: a sum over a row has the
+/// same bits for any number of ranks.
 class NodeGraph {
  public:
-  /// Cuts `graph` (read on rank 0) with METIS. Deterministic for a fixed number of ranks. Collective.
-  NodeGraph(MPI_Comm comm, const RootGraph& graph);
+  /// Cuts `graph` (read on rank 0) with METIS between groups of nodes: `group` gives one of `num_groups` to each
+  /// node. Deterministic for a fixed number of ranks. Collective.
+  NodeGraph(MPI_Comm comm, const RootGraph& graph, const std::vector<std::int32_t>& group, std::int32_t num_groups);
   ~NodeGraph();
   NodeGraph(const NodeGraph&) = delete;
   NodeGraph& operator=(const NodeGraph&) = delete;
@@ -26,9 +29,8 @@ class NodeGraph {
   std::size_t local() const { return owned() + num_ghosts_; }
 
   std::vector<std::int64_t> offsets{0};  ///< rows of the owned nodes
-  std::vector<std::int32_t> columns;     ///< local ids, ascending by number in the whole graph
+  std::vector<std::int32_t> columns;     ///< local ids
   std::vector<double> weights;
-  std::int64_t first = 0;  ///< number of the first owned node
 
   /// `width` doubles per node from rank 0 (old order) to all local nodes. Collective.
   std::vector<double> scatter(std::span<const double> on_root, int width) const;

@@ -15,16 +15,19 @@ Quaternion exponential(const Vec3& w) {
 
 // Ascent step of <q, exp(w) s>: Newton with the eigenvalues of the negated Hessian made positive.
 Vec3 ascent_step(const Sh& q, const Sh& s, const Vec3& gradient) {
-  const auto ls = tangent(s);
-  Mat3 h;
-  for (int k = 0; k < 3; ++k) {
-    const Sh lq = generator(k) * q;  // <q, L_k L_l s> = -<L_k q, L_l s>
-    h.row(k) = (ls.transpose() * lq).transpose();
+  const Mat3 h = tangent(q).transpose() * tangent(s);  // <q, L_k L_l s> = -<L_k q, L_l s>
+  const Mat3 symmetric = 0.5 * (h + h.transpose());
+  const double trace = symmetric.trace();
+  Vec3 step;
+  if (const Eigen::LLT<Mat3> factor(symmetric - 1e-3 * std::abs(trace) * Mat3::Identity());
+      trace > 0 && factor.info() == Eigen::Success) {
+    step = symmetric.inverse() * gradient;
+  } else {
+    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(symmetric);
+    const double floor = 1e-3 * eigen.eigenvalues().cwiseAbs().maxCoeff() + 1e-300;
+    const Vec3 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(floor);
+    step = eigen.eigenvectors() * (eigen.eigenvectors().transpose() * gradient).cwiseQuotient(curvature);
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(0.5 * (h + h.transpose()));
-  const double floor = 1e-3 * eigen.eigenvalues().cwiseAbs().maxCoeff() + 1e-300;
-  const Vec3 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(floor);
-  Vec3 step = eigen.eigenvectors() * (eigen.eigenvectors().transpose() * gradient).cwiseQuotient(curvature);
   const double longest = 0.3;  // well inside the 45 degrees that separate a maximum from its mirror
   if (step.norm() > longest) step *= longest / step.norm();
   return step;
@@ -37,6 +40,10 @@ const std::array<Quaternion, 5>& seeds() {
       Quaternion(Eigen::AngleAxisd(M_PI / 4, Vec3(1, 1, 0).normalized()))};
   return list;
 }
+
+// A frame with at least this cosine with q is the closest one: any closer frame would lie within 37 degrees (on
+// the unit sphere) of it, and along the way between them the function is concave.
+constexpr double surely_closest = 0.95;
 
 }  // namespace
 
@@ -63,13 +70,22 @@ Projected project_from(const Sh& q, const Quaternion& start) {
 }
 
 Projected project(const Sh& q) {
-  Projected best{Quaternion::Identity(), reference(), q.dot(reference())};
-  bool first = true;
-  for (const Quaternion& seed : seeds()) {
-    const Projected p = project_from(q, seed);
+  static const std::array<Sh, 5> seed_sh = [] {
+    std::array<Sh, 5> sh;
+    for (std::size_t k = 0; k < sh.size(); ++k) sh[k] = of_frame(seeds()[k]);
+    return sh;
+  }();
+  const double norm = q.norm();
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k < seed_sh.size(); ++k)
+    if (q.dot(seed_sh[k]) > q.dot(seed_sh[nearest]) + 1e-9 * norm) nearest = k;
+  Projected best = project_from(q, seeds()[nearest]);
+  if (norm > 0 && best.dot > surely_closest * norm) return best;
+  for (std::size_t k = 0; k < seed_sh.size(); ++k) {
+    if (k == nearest) continue;
+    const Projected p = project_from(q, seeds()[k]);
     // A margin keeps rounding noise from deciding between equally good maxima.
-    if (first || p.dot > best.dot + 1e-9 * q.norm()) best = p;
-    first = false;
+    if (p.dot > best.dot + 1e-9 * norm) best = p;
   }
   return best;
 }

@@ -77,9 +77,15 @@ const Sh& reference() {
 
 const ShMatrix& generator(int k) { return generators()[static_cast<std::size_t>(k)]; }
 
+// The products of the generators with s, written out: they have 14, 14 and 8 entries.
 Eigen::Matrix<double, 9, 3> tangent(const Sh& s) {
+  static const double a = std::sqrt(2.0), b = std::sqrt(3.5), c = std::sqrt(4.5), d = std::sqrt(10.0);
   Eigen::Matrix<double, 9, 3> j;
-  for (int k = 0; k < 3; ++k) j.col(k) = generator(k) * s;
+  j.col(0) << -a * s[7], -b * s[6] - a * s[8], -c * s[5] - b * s[7], -d * s[4] - c * s[6], d * s[3], c * s[2],
+      b * s[1] + c * s[3], a * s[0] + b * s[2], a * s[1];
+  j.col(1) << a * s[1], b * s[2] - a * s[0], c * s[3] - b * s[1], -c * s[2], -d * s[5], d * s[4] - c * s[6],
+      c * s[5] - b * s[7], b * s[6] - a * s[8], a * s[7];
+  j.col(2) << 4 * s[8], 3 * s[7], 2 * s[6], s[5], 0, -s[3], -2 * s[2], -3 * s[1], -4 * s[0];
   return j;
 }
 

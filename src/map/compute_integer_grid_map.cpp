@@ -104,6 +104,7 @@ class Stage {
     if (!resume(problem)) round_and_solve(problem);
     result_.newton_steps = monitor_.newton_steps();
     result_.linear_iterations = monitor_.linear_iterations();
+    result_.solves = monitor_.solves();
     return std::move(result_);
   }
 
@@ -164,6 +165,7 @@ class Stage {
       if (root()) judge(outcome);
     });
     broadcast(comm_, result_.report);
+    monitor_.note_defects(result_.report);
     broadcast(comm_, result_.reason);
     broadcast(comm_, result_.where);
     return result_.reason.empty();

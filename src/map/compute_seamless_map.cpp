@@ -1,3 +1,6 @@
+#include <fmt/core.h>
+
+#include <chrono>
 #include <cmath>
 
 #include "collective.hpp"
@@ -87,15 +90,14 @@ class Stage {
     const IntegrableOptions options;
     try {
       IntegrableFrames frames(comm_, mesh_, field_, constraints_, space_, options);
-      const auto reports = optimise_integrable_frames(
-          frames, comm_, options, control_, [&](std::size_t, IntegrableFrames& now, const IntegrableStageReport&) {
-            keep_better(best, judged(fit(problem, inverse_frames(now.gather()))));
-            return best.report.valid();
-          });
-      for (const IntegrableStageReport& report : reports) {
-        newton_steps_ += report.newton_steps;
-        linear_iterations_ += report.linear_iterations;
-      }
+      optimise_integrable_frames(frames, comm_, options, control_,
+                                 [&](std::size_t, IntegrableFrames& now, const IntegrableStageReport& report) {
+                                   monitor_.note({fmt::format("integrable frames {:.0e} {:.0e}",
+                                                              report.stage.smoothness, report.stage.integrability),
+                                                  report.newton_steps, report.linear_iterations, report.seconds});
+                                   keep_better(best, judged(fit(problem, inverse_frames(now.gather()))));
+                                   return best.report.valid();
+                                 });
     } catch (const Error& error) {
       // Frames that cannot be aligned at all leave the direct fit, which is then judged as it is.
       if (error.code() != ExitCode::no_seamless_map) throw;
@@ -126,8 +128,10 @@ class Stage {
     const std::vector<double> zero(root() ? space_.num_unknowns() : 0, 0.0);
     const VecOwner y(problem.make_vector(zero, false));
     const solve::EnergyTerm* terms[] = {&energy};
+    const auto start = std::chrono::steady_clock::now();
     const solve::NewtonResult result = solve::solve_linear(comm_, terms, y.get(), solve::Preconditioner::cholesky);
-    linear_iterations_ += result.linear_iterations;
+    monitor_.note({"fit", 0, result.linear_iterations,
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
     return problem.gather(y.get(), {});
   }
 
@@ -145,12 +149,13 @@ class Stage {
     return problem.gather(y.get(), {});
   }
 
-  Candidate judged(std::vector<double> unknowns) const {
+  Candidate judged(std::vector<double> unknowns) {
     Candidate candidate{std::move(unknowns), {}};
     agree(comm_, [&] {
       if (root()) candidate.report = verify_map(mesh_, features_, codes_, map_of(candidate.unknowns));
     });
     broadcast(comm_, candidate.report);
+    monitor_.note_defects(candidate.report);
     return candidate;
   }
 
@@ -170,8 +175,9 @@ class Stage {
       result.report = verify_map(mesh_, features_, codes_, result.map);
     });
     broadcast(comm_, result.report);
-    result.newton_steps = newton_steps_ + monitor_.newton_steps();
-    result.linear_iterations = linear_iterations_ + monitor_.linear_iterations();
+    result.newton_steps = monitor_.newton_steps();
+    result.linear_iterations = monitor_.linear_iterations();
+    result.solves = monitor_.solves();
     return result;
   }
 
@@ -186,8 +192,6 @@ class Stage {
   ConformingSpace space_;
   double edge_ = 1;
   std::vector<AxisConstraint> constraints_;
-  int newton_steps_ = 0;
-  int linear_iterations_ = 0;
 };
 
 }  // namespace

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "hexfield/base/control.hpp"
+#include "hexfield/map/compute_map.hpp"
 #include "hexfield/solve/minimise.hpp"
 
 namespace hexfield {
 
 /// Joins the long solves of a stage to their listener: after every Newton step it reports progress, offers
-/// the iterate for a checkpoint and asks whether to stop. All calls are collective.
+/// the iterate for a checkpoint and asks whether to stop; keeps the record of what they cost. All calls are
+/// collective.
 class SolveMonitor {
  public:
   /// `name` is that of the iterate in checkpoints.
@@ -24,14 +26,19 @@ class SolveMonitor {
                                solve::NewtonOptions options, const std::string& what,
                                const std::function<std::vector<double>()>& gather);
 
-  int newton_steps() const { return newton_steps_; }
-  int linear_iterations() const { return linear_iterations_; }
+  /// Adds to the record; solves of one name in a row become one entry.
+  void note(const SolveRecord& solve);
+  /// What a check of the map after the last solve found.
+  void note_defects(const MapReport& report);
+
+  const std::vector<SolveRecord>& solves() const { return solves_; }
+  int newton_steps() const;
+  int linear_iterations() const;
 
  private:
   const Control& control_;
   std::string name_;
-  int newton_steps_ = 0;
-  int linear_iterations_ = 0;
+  std::vector<SolveRecord> solves_;
 };
 
 }  // namespace hexfield

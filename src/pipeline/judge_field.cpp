@@ -35,7 +35,9 @@ std::pair<std::size_t, std::size_t> note_defects(RunState& state, const std::vec
 
 }  // namespace
 
-void judge_field(RunState& state) {
+namespace {
+
+void describe_field(RunState& state) {
   const FieldResult& f = state.field;
   const SingularityGraph graph = singularity_graph(f.mesh, f.features, f.field, f.codes);
   Json counts = Json::object();
@@ -48,13 +50,28 @@ void judge_field(RunState& state) {
                            {"arcs", graph.arcs.size()},
                            {"tets", f.mesh.num_tets()},
                            {"vertices", f.mesh.num_vertices()}};
+}
+
+Json counts_json(const DefectCounts& counts) {
+  return {{"edges", counts.edges}, {"vertices", counts.vertices}, {"kinds", counts.kinds}};
+}
+
+}  // namespace
+
+void judge_field(RunState& state) { describe_field(state); }
+
+void judge_repair(RunState& state) {
+  state.report["field_before_repair"] = state.report["field"];
+  describe_field(state);
+  const RepairReport& repair = state.repair;
+  state.report["meshability"] = {{"before", counts_json(repair.before)}, {"after", counts_json(repair.after)}};
+  state.report["repair"] = {
+      {"iterations", repair.iterations}, {"operations", repair.operations}, {"seconds", repair.seconds}};
+  const FieldResult& f = state.field;
   const std::vector<Defect> defects = find_defects(f.mesh, f.features, f.field, f.codes);
+  if (defects.empty()) return;
   std::vector<Vec3> places;
   const auto [edges, vertices] = note_defects(state, defects, places);
-  // Repair will have its numbers under "after"; until then nothing changes in between.
-  const Json numbers = {{"edges", edges}, {"vertices", vertices}};
-  state.report["meshability"] = {{"before", numbers}, {"after", numbers}};
-  if (defects.empty()) return;
   throw Error(ExitCode::not_meshable,
               fmt::format("The field is not locally meshable at {} edges and {} vertices: {}", edges, vertices,
                           defects.front().sentence),

@@ -46,7 +46,7 @@ Json empty_report(const RunOptions& options, int ranks, int threads) {
   json["ranks"] = ranks;
   json["threads"] = threads;
   json["stages"] = Json::array();
-  for (const char* section : {"field", "meshability", "seamless", "igm", "quantization", "hex"})
+  for (const char* section : {"field", "meshability", "repair", "seamless", "igm", "quantization", "hex"})
     json[section] = nullptr;
   return json;
 }
@@ -61,14 +61,17 @@ Json stage_json(const StageCost& cost) {
           {"peak_rss_mb_over_ranks", spread_json(cost.peak_rss_mb)}};
 }
 
-void close_report(Json& report, const Outcome& outcome, const std::string& stage, const std::vector<Vec3>& where) {
+Json try_json(int attempt, ExitCode verdict, const std::string& sentence) {
+  return {{"settings", name_of_variation(attempt)}, {"verdict", static_cast<int>(verdict)}, {"text", sentence}};
+}
+
+void close_report(Json& report, const Json& tries, const Outcome& outcome, const std::string& stage,
+                  const std::vector<Vec3>& where) {
   Json places = Json::array();
   for (const Vec3& p : where) {
     if (p.allFinite() && places.size() < 100) places.push_back({p.x(), p.y(), p.z()});
   }
-  const Json settings = {{"target_hexes", report["options"]["target_hexes"]},
-                         {"edge_length", report["options"]["edge_length"]}};
-  report["tries"] = Json::array({{{"settings", settings}, {"verdict", static_cast<int>(outcome.code)}}});
+  report["tries"] = tries;
   report["verdict"] = {{"code", static_cast<int>(outcome.code)},
                        {"text", outcome.sentence},
                        {"where", places},

@@ -45,7 +45,7 @@ class Runner {
   Runner(Team& team, const RunOptions& options, Log& log)
       : team_(team),
         safe_points_(team, options.time_limit, options.checkpoint_interval),
-        state_{team, options, log, safe_points_, {}, {}, {}, {}, {}, {}, {}, {}},
+        state_{.team = team, .options = options, .log = log, .safe_points = safe_points_},
         log_(log),
         options_(options) {}
 
@@ -56,6 +56,8 @@ class Runner {
   void open_checkpoint();
   void open_output();
   void run_stage(std::size_t index);
+  void run_stages();
+  bool try_again(const Error& error);
   bool restore(std::size_t index);
   void compute(std::size_t index);
   void end_stage(const Stage& stage, const std::string& note);
@@ -165,9 +167,14 @@ bool Runner::restore(std::size_t index) {
     stage.unpack(state_, checkpoint_->load(stage.name));
     Json lines = Json::parse(checkpoint_->find(stage.name)->report);
     lines["restored"] = true;
+    if (lines.contains("try")) {
+      state_.attempt = lines["try"].get<int>() - 1;
+      state_.tries = lines["tries_before"];
+    }
     state_.report["stages"].push_back(std::move(lines));
     log_.info(fmt::format("{:<9} restored from {}", stage.name, checkpoint_->file().string()));
   });
+  MPI_Bcast(&state_.attempt, 1, MPI_INT, 0, team_.comm());
   return true;
 }
 
@@ -191,6 +198,10 @@ void Runner::end_stage(const Stage& stage, const std::string& note) {
   if (!team_.is_root()) return;
   Json lines = stage_json(cost);
   if (stage.iterations) lines["iterations"] = stage.iterations(state_);
+  if (stage.name == "repair") {
+    lines["try"] = state_.attempt + 1;
+    lines["tries_before"] = state_.tries;
+  }
   if (!note.empty()) lines["ended"] = note;
   state_.report["stages"].push_back(lines);
   log_.info(
@@ -234,6 +245,38 @@ void Runner::run_stage(std::size_t index) {
   judge(stage);
 }
 
+// Goes back to the smooth field, for a repair with another setting, where this one ends in a field that is not
+// locally meshable or has no seamless map.
+bool Runner::try_again(const Error& error) {
+  const bool worth_it = error.code() == ExitCode::not_meshable || error.code() == ExitCode::no_seamless_map;
+  if (!worth_it || state_.attempt + 1 >= options_.tries) return false;
+  const std::size_t repair = index_of("repair");
+  team_.on_root([&] {
+    log_.warning(
+        fmt::format("Try {} ({}) failed: {}", state_.attempt + 1, name_of_variation(state_.attempt), error.sentence()));
+    state_.tries.push_back(try_json(state_.attempt, error.code(), error.sentence()));
+    stages_[repair - 1].unpack(state_, checkpoint_->load(stages_[repair - 1].name));
+    state_.culprits = {};
+    state_.seamless = {};
+  });
+  ++state_.attempt;
+  restoring_ = false;
+  return true;
+}
+
+void Runner::run_stages() {
+  for (std::size_t i = 0; i <= last_; ++i) {
+    try {
+      run_stage(i);
+    } catch (const Error& error) {
+      if (!try_again(error)) throw;
+      i = index_of("repair") - 1;
+      continue;
+    }
+    if (i < last_) safe_points_.pass("after stage " + stages_[i].name);
+  }
+}
+
 std::string Runner::success_sentence() const {
   if (last_ + 1 < stages_.size()) return fmt::format("Finished stage {}, as --to asked.", stages_[last_].name);
   return state_.sentence;
@@ -244,10 +287,7 @@ Outcome Runner::go() {
   std::vector<Vec3> where;
   try {
     prepare();
-    for (std::size_t i = 0; i <= last_; ++i) {
-      run_stage(i);
-      if (i < last_) safe_points_.pass("after stage " + stages_[i].name);
-    }
+    run_stages();
     if (team_.is_root()) outcome.sentence = success_sentence();
   } catch (const Error& error) {
     outcome = {error.code(), error.sentence()};
@@ -267,7 +307,8 @@ Outcome Runner::finish(Outcome outcome, const std::vector<Vec3>& where) {
       const bool failed = outcome.code != ExitCode::success && outcome.code != ExitCode::stopped;
       if (failed && state_.culprits.empty()) state_.culprits.places = where;
       write_results(state_, failed);
-      close_report(state_.report, outcome, current_, where);
+      state_.tries.push_back(try_json(state_.attempt, outcome.code, outcome.sentence));
+      close_report(state_.report, state_.tries, outcome, current_, where);
       write_text(options_.output / "report.json", state_.report.dump(2) + "\n");
     });
   } catch (const Error& error) {

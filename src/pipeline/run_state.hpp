@@ -35,14 +35,17 @@ struct RunState {
   Log& log;
   SafePoints& safe_points;
 
-  TetInput input;
-  FieldResult field;
-  SeamlessResult seamless;
-  IgmResult igm;
-  HexMesh hexes;
-  Culprits culprits;
-  std::string sentence;           ///< the verdict when every stage has succeeded (rank 0)
-  nlohmann::ordered_json report;  ///< sections of report.json by the stages that made them (rank 0)
+  TetInput input{};
+  FieldResult field{};  ///< of stage field, then of stage repair
+  RepairReport repair{};
+  int attempt = 0;  ///< which setting of the repair is being tried, on all ranks
+  SeamlessResult seamless{};
+  IgmResult igm{};
+  HexMesh hexes{};
+  Culprits culprits{};
+  nlohmann::ordered_json tries = nlohmann::ordered_json::array();  ///< those that failed (rank 0)
+  std::string sentence{};           ///< the verdict when every stage has succeeded (rank 0)
+  nlohmann::ordered_json report{};  ///< sections of report.json by the stages that made them (rank 0)
 };
 
 }  // namespace hexfield

@@ -116,4 +116,19 @@ Control SafePoints::control_on_root(Progress& progress) {
   return control;
 }
 
+IterateRing& SafePoints::ring_on_root(const std::string& name, const std::string& basis) {
+  return rings_on_root_.try_emplace(name + basis, directory_, name, basis).first->second;
+}
+
+void SafePoints::offer_on_root(const std::string& name, const std::string& basis,
+                               const std::function<NamedArrays()>& gather) {
+  if (cause_ == 0 && seconds_since(last_checkpoint_) < checkpoint_interval_) return;
+  ring_on_root(name, basis).save(gather());
+  last_checkpoint_ = Clock::now();
+}
+
+std::optional<NamedArrays> SafePoints::restore_on_root(const std::string& name, const std::string& basis) {
+  return resume_ ? ring_on_root(name, basis).newest_arrays() : std::nullopt;
+}
+
 }  // namespace hexfield

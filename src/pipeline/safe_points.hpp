@@ -38,9 +38,13 @@ class SafePoints {
   Control control(const std::string& basis, Progress& progress);
   /// For a stage that runs on rank 0 only, inside Team::on_root().
   Control control_on_root(Progress& progress);
+  /// Keeps an iterate of such a stage when it is time to, and gives back the newest one of an interrupted run.
+  void offer_on_root(const std::string& name, const std::string& basis, const std::function<NamedArrays()>& gather);
+  std::optional<NamedArrays> restore_on_root(const std::string& name, const std::string& basis);
 
  private:
   int local_cause() const;
+  IterateRing& ring_on_root(const std::string& name, const std::string& basis);
   void offer(IterateRing& ring, const std::function<std::vector<double>()>& gather);
 
   using Clock = std::chrono::steady_clock;
@@ -49,6 +53,7 @@ class SafePoints {
   double checkpoint_interval_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_checkpoint_ = start_;
+  std::map<std::string, IterateRing> rings_on_root_;  ///< by name and basis
   std::filesystem::path directory_;
   bool resume_ = false;
   bool told_ = false;

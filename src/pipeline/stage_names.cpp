@@ -9,7 +9,7 @@
 namespace hexfield {
 
 const std::vector<std::string>& stage_names() {
-  static const std::vector<std::string> names = {"read", "field", "seamless", "igm", "extract", "improve"};
+  static const std::vector<std::string> names = {"read", "field", "repair", "seamless", "igm", "extract", "improve"};
   return names;
 }
 

@@ -94,6 +94,43 @@ Stage field_stage() {
   return stage;
 }
 
+// Safe points of the repair, and where it goes on after an interruption.
+RepairControl repair_control(RunState& state, const std::string& basis, Progress& progress) {
+  const Control on_root = state.safe_points.control_on_root(progress);
+  RepairControl control;
+  control.progress = on_root.progress;
+  control.stop_requested = on_root.stop_requested;
+  control.checkpoint = [&state, basis](const RepairIterate& iterate) {
+    state.safe_points.offer_on_root("repair", basis, [&] { return pack(iterate); });
+  };
+  return control;
+}
+
+Stage repair_stage() {
+  Stage stage = field_stage();
+  stage.name = "repair";
+  stage.compute = [](RunState& state, const std::string& basis, Progress& progress) {
+    state.team.on_root([&] {
+      const std::string name = basis + " try " + std::to_string(state.attempt);
+      const auto found = state.safe_points.restore_on_root("repair", name);
+      RepairIterate start = found ? unpack_repair_iterate(*found) : start_repair(state.field);
+      RepairResult result = repair_field(std::move(start), state.field, varied(state.options.repair, state.attempt),
+                                         repair_control(state, name, progress));
+      state.field = std::move(result.field);
+      state.repair = std::move(result.report);
+    });
+  };
+  stage.pack = [](const RunState& state) { return pack(RepairResult{state.field, state.repair}); };
+  stage.unpack = [](RunState& state, const NamedArrays& arrays) {
+    RepairResult result = unpack_repair(arrays);
+    state.field = std::move(result.field);
+    state.repair = std::move(result.report);
+  };
+  stage.judge = judge_repair;
+  stage.iterations = [](const RunState& state) { return state.repair.iterations; };
+  return stage;
+}
+
 Stage seamless_stage() {
   Stage stage;
   stage.name = "seamless";
@@ -175,7 +212,7 @@ Stage improve_stage() {
 }  // namespace
 
 std::vector<Stage> all_stages() {
-  return {read_stage(), field_stage(), seamless_stage(), igm_stage(), extract_stage(), improve_stage()};
+  return {read_stage(), field_stage(), repair_stage(), seamless_stage(), igm_stage(), extract_stage(), improve_stage()};
 }
 
 }  // namespace hexfield

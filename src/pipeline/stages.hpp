@@ -26,10 +26,11 @@ struct Stage {
   std::function<std::int64_t(const RunState&)> iterations;
 };
 
-/// All stages in their order. Between field and seamless is the place of the repair of fields.
+/// All stages in their order.
 std::vector<Stage> all_stages();
 
 void judge_field(RunState& state);
+void judge_repair(RunState& state);
 void judge_seamless(RunState& state);
 void judge_igm(RunState& state);
 void judge_hexes(RunState& state);

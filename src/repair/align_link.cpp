@@ -65,7 +65,9 @@ void guess_images(Link& link) {
 void align_frames(Link& link, int sweeps) {
   std::vector<FrameConstraint> constraints;
   for (const LinkTriangle& t : link.triangles) constraints.push_back(constraint_of(link, t));
-  for (int sweep = 0; sweep < sweeps; ++sweep)
+  double turned = 1;
+  for (int sweep = 0; sweep < sweeps && turned > 1e-8; ++sweep) {
+    turned = 0;
     for (std::size_t i = 0; i < link.triangles.size(); ++i) {
       LinkTriangle& t = link.triangles[i];
       Eigen::Vector4d sum = t.frame.coeffs();
@@ -77,9 +79,12 @@ void align_frames(Link& link, int sweeps) {
         sum += (there.coeffs().dot(sum) < 0 ? -1 : 1) * there.coeffs();
       }
       const double length = sum.norm();
+      const Quaternion before = t.frame;
       if (length > 1e-9) t.frame.coeffs() = sum / length;
       if (constraints[i].count > 0) t.frame = project_frame(t.frame, constraints[i]);
+      turned = std::max(turned, 1 - std::abs(before.dot(t.frame)));
     }
+  }
 }
 
 }  // namespace hexfield

@@ -61,6 +61,7 @@ class Untangler {
       if (!step(y, epsilon, energy)) return false;
       images = unpack(y);
       if (is_drawing(link_, images, options_.smallest_det)) return true;
+      if (smallest > options_.smallest_det) return false;  // positive, wound wrongly: no step back unwinds it
       slow = std::abs(before - energy) < 1e-3 * energy ? slow + 1 : 0;
       if (slow == 5) return false;
       before = energy;
@@ -198,6 +199,12 @@ Vec3 image_of(const Link& link, std::size_t t, std::size_t k, const std::vector<
   return octahedral::apply(triangle.to_tet[k], images[static_cast<std::size_t>(triangle.vertex[k])]);
 }
 
+std::vector<Vec3> starts(const Link& link) {
+  std::vector<Vec3> images;
+  for (const LinkVertex& v : link.vertices) images.push_back(v.start);
+  return images;
+}
+
 bool is_drawing(const Link& link, const std::vector<Vec3>& images, double smallest_det) {
   std::vector<double> angles(3 * link.triangles.size());
   for (std::size_t t = 0; t < link.triangles.size(); ++t) {
@@ -226,15 +233,26 @@ bool admits_area(const Link& link) {
   return whole_turns || (cones.size() == 2 && cones[0] == cones[1]);
 }
 
-std::vector<Vec3> find_drawing(const std::array<Link, 2>& guesses, const VertexMapOptions& options) {
-  std::array<std::vector<Vec3>, 2> images;
-  for (std::size_t g = 0; g < 2; ++g) {
-    for (const LinkVertex& v : guesses[g].vertices) images[g].push_back(v.start);
-    if (is_drawing(guesses[g], images[g], options.smallest_det)) return images[g];
-  }
+bool is_cramped(const Link& link) {
+  const bool narrow = std::any_of(link.sectors.begin(), link.sectors.end(), [](const LinkSector& s) {
+    return s.quads >= 2 * static_cast<int>(s.corners.size());
+  });
+  auto constrained = [&](const LinkTriangle& t, std::size_t k) {
+    return link.vertices[static_cast<std::size_t>(t.vertex[k])].free_count() < 3;
+  };
+  return narrow || std::any_of(link.triangles.begin(), link.triangles.end(), [&](const LinkTriangle& t) {
+           for (std::size_t k = 0; k < 3; ++k)
+             if (t.normal[k] == octahedral::no_label && constrained(t, k) && constrained(t, next(k))) return true;
+           return false;
+         });
+}
+
+std::vector<Vec3> find_drawing(const std::vector<Link>& guesses, const VertexMapOptions& options) {
+  for (const Link& link : guesses)
+    if (std::vector<Vec3> images = starts(link); is_drawing(link, images, options.smallest_det)) return images;
   Untangler untangler(guesses[0], options);
-  for (std::size_t g : {1, 0})
-    if (untangler.run(images[g])) return images[g];
+  for (const Link& link : guesses)
+    if (std::vector<Vec3> images = starts(link); untangler.run(images)) return images;
   return {};
 }
 

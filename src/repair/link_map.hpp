@@ -55,12 +55,17 @@ Link refined(const Link& link);
 
 /// Image of corner k of triangle t.
 Vec3 image_of(const Link& link, std::size_t t, std::size_t k, const std::vector<Vec3>& images);
+/// The guesses as images.
+std::vector<Vec3> starts(const Link& link);
 /// All triangles positive and all sectors as wide as they must be.
 bool is_drawing(const Link& link, const std::vector<Vec3>& images, double smallest_det);
 /// Necessary conditions: positive area; a sphere with one cone point, or with two of different angles, does not exist
 /// unless the angles are whole turns (Troyanov 1989).
 bool admits_area(const Link& link);
-/// Images (per link vertex) of a drawing, found from two guesses of one link; empty when none was found.
-std::vector<Vec3> find_drawing(const std::array<Link, 2>& guesses, const VertexMapOptions& options);
+/// The triangulation may be what forbids a drawing: a side that is no feature joins two vertices that are not free, or
+/// so few triangles share a sector that one of them would need an angle of half a turn.
+bool is_cramped(const Link& link);
+/// Images (per link vertex) of a drawing, found from several guesses of one link; empty when none was found.
+std::vector<Vec3> find_drawing(const std::vector<Link>& guesses, const VertexMapOptions& options);
 
 }  // namespace hexfield

@@ -109,6 +109,21 @@ TetShape tet_shape_derivatives(const std::array<Vec3, 4>& x) {
   return out;
 }
 
+CornerShape tet_corner_derivatives(const std::array<Vec3, 4>& x, int corner) {
+  const Mat3 j = tet_jacobian(x);
+  CornerShape out;
+  out.value = shape<3>(j, 2.0 / 3.0);
+  if (!std::isfinite(out.value)) return out;
+  const double trace = j.squaredNorm();
+  const Vec3 row = regular_tet().row(corner).transpose();
+  const Vec3 a = j * row;
+  const Vec3 b = j.inverse().transpose() * row;
+  out.gradient = 2 / trace * a - 2.0 / 3.0 * b;
+  out.hessian = 2 / trace * row.squaredNorm() * Mat3::Identity() - 4 / (trace * trace) * a * a.transpose() +
+                2.0 / 3.0 * b * b.transpose();
+  return out;
+}
+
 double triangle_shape(const std::array<Vec3, 3>& x, const Vec3& normal) {
   return shape<2>(triangle_jacobian(x, plane_of(normal)), 1.0);
 }

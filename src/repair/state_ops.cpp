@@ -23,6 +23,20 @@ void halve(Container& values, const EdgeKey& edge, VertexId middle) {
   }
 }
 
+// Moves what `values` has for the edges at a collapsed vertex to its other end; what is there already stays.
+template <class Container>
+void rename(Container& values, const CollapseRecord& record) {
+  values.erase(edge_key(record.from, record.to));
+  for (VertexId x : record.neighbours) {
+    auto node = values.extract(edge_key(record.from, x));
+    if (node.empty()) continue;
+    if constexpr (requires { node.mapped(); })
+      values.emplace(edge_key(record.to, x), node.mapped());
+    else
+      values.insert(edge_key(record.to, x));
+  }
+}
+
 void append(std::vector<Violation>& all, std::vector<Violation> more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
@@ -43,6 +57,17 @@ void StateAttributes::RepairValues::on_split(const TetMesh&, const SplitRecord& 
   halve(state_.kept, edge, record.new_vertex);
 }
 
+void StateAttributes::RepairValues::on_collapse(const TetMesh&, const CollapseRecord& record) {
+  rename(state_.codes, record);
+  rename(state_.pairs, record);
+  rename(state_.kept, record);
+}
+
+void StateAttributes::RepairValues::on_swap(const TetMesh&, const SwapRecord& record) {
+  require(!record.removed_edge[0].valid() || !state_.codes.contains(record.removed_edge),
+          "A singular edge was swapped.");
+}
+
 VertexId split_edge(RepairState& state, VertexId a, VertexId b) {
   return split_edge(state.mesh, a, b, StateAttributes(state).all());
 }
@@ -52,6 +77,14 @@ VertexId split_face(RepairState& state, HalfFaceId h) {
 }
 
 VertexId split_tet(RepairState& state, TetId t) { return split_tet(state.mesh, t, StateAttributes(state).all()); }
+
+void collapse_edge(RepairState& state, VertexId from, VertexId to) {
+  collapse_edge(state.mesh, from, to, StateAttributes(state).all());
+}
+
+void swap_edge(RepairState& state, TetId seed, VertexId a, VertexId b, const RingTriangulation& triangulation) {
+  swap_edge(state.mesh, seed, a, b, triangulation, StateAttributes(state).all());
+}
 
 void compact(RepairState& state) { compact(state.mesh, StateAttributes(state).all()); }
 
@@ -129,13 +162,26 @@ void update_codes(RepairState& state, std::span<const EdgeKey> edges) {
   }
 }
 
-AlignReport smooth(RepairState& state, std::span<const TetId> tets, int sweeps, SingularSign sign) {
+namespace {
+
+AlignReport smooth_aligned(RepairState& state, std::span<const TetId> tets, int sweeps, const EdgeCodes& codes,
+                           SingularSign sign) {
   std::vector<TetId> ordered(tets.begin(), tets.end());
   std::sort(ordered.begin(), ordered.end());
-  const auto constraints = collect_constraints_of(state.mesh, state.features, state.field, state.codes, ordered, sign);
+  const auto constraints = collect_constraints_of(state.mesh, state.features, state.field, codes, ordered, sign);
   AlignOptions options;
   options.sweeps = sweeps;
   return align_submesh(state.mesh, state.field, constraints, ordered, options);
+}
+
+}  // namespace
+
+AlignReport smooth(RepairState& state, std::span<const TetId> tets, int sweeps, SingularSign sign) {
+  return smooth_aligned(state, tets, sweeps, state.codes, sign);
+}
+
+AlignReport smooth_to_features(RepairState& state, std::span<const TetId> tets, int sweeps) {
+  return smooth_aligned(state, tets, sweeps, {}, SingularSign::by_geometry);
 }
 
 std::vector<Violation> check(const RepairState& state) {

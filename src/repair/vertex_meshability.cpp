@@ -203,14 +203,23 @@ VertexVerdict vertex_verdict(const FieldView& view, VertexId v, const VertexMapO
   if (!built || !admits_area(*built)) return VertexVerdict::not_meshable;
   Link plain = *std::move(built);
   guess_images(plain);
-  Link aligned = plain;
-  align_frames(aligned, options.sweeps);
-  guess_images(aligned);
+  if (is_drawing(plain, starts(plain), options.smallest_det)) {
+    if (map != nullptr) *map = mapped(plain, starts(plain));
+    return VertexVerdict::meshable;
+  }
+  std::vector<Link> guesses = {plain, plain};
+  align_frames(guesses[0], options.sweeps);
+  guess_images(guesses[0]);
+  guesses.push_back(guesses[0]);
+  align_frames(guesses[2], 4 * options.sweeps);
+  guess_images(guesses[2]);
   for (int level = 0; level <= options.refinements; ++level) {
-    if (level > 0) plain = refined(plain), aligned = refined(aligned);
-    const std::vector<Vec3> images = find_drawing({plain, aligned}, options);
+    if (level > 0 && !is_cramped(guesses[0])) break;
+    if (level > 0)
+      for (Link& link : guesses) link = refined(link);
+    const std::vector<Vec3> images = find_drawing(guesses, options);
     if (images.empty()) continue;
-    if (map != nullptr) *map = mapped(plain, images);
+    if (map != nullptr) *map = mapped(guesses[0], images);
     return level == 0 ? VertexVerdict::meshable : VertexVerdict::meshable_when_split;
   }
   return VertexVerdict::not_meshable;

@@ -1,5 +1,6 @@
 #include "linear_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hexfield/base/error.hpp"
@@ -7,29 +8,55 @@
 #include "hexfield/solve/sparse_inverse.hpp"
 
 namespace hexfield::solve {
-LinearSolver::LinearSolver(MPI_Comm comm, Preconditioner preconditioner, int max_iterations) : comm_(comm) {
-  check_petsc(KSPCreate(comm_, &ksp_), "KSPCreate");
+namespace {
+
+// Iterations with the factorisation of an earlier matrix: beyond the first number the next solve renews it, at the
+// second this one does. A factorisation costs as much as some dozens of them, the more the larger the system.
+constexpr int stale_iterations = 12;
+constexpr int max_stale_iterations = 30;
+
+}  // namespace
+
+LinearSolver::LinearSolver(MPI_Comm comm, Preconditioner preconditioner, int max_iterations)
+    : max_iterations_(max_iterations), keeps_factor_(preconditioner == Preconditioner::cholesky) {
+  check_petsc(KSPCreate(comm, &ksp_), "KSPCreate");
   check_petsc(KSPSetType(ksp_, KSPCG), "KSPSetType");
   check_petsc(KSPSetNormType(ksp_, KSP_NORM_NATURAL), "KSPSetNormType");
-  check_petsc(KSPSetTolerances(ksp_, PETSC_DEFAULT, 0.0, 1e30, max_iterations), "KSPSetTolerances");
   PC pc = nullptr;
   check_petsc(KSPGetPC(ksp_, &pc), "KSPGetPC");
   choose_preconditioner(pc, preconditioner);
 }
 
-int LinearSolver::solve(Mat matrix, Vec rhs, Vec x, double relative_tolerance) {
-  check_petsc(KSPSetOperators(ksp_, matrix, matrix), "KSPSetOperators");
-  PetscInt limit = 0;
-  check_petsc(KSPGetTolerances(ksp_, nullptr, nullptr, nullptr, &limit), "KSPGetTolerances");
+int LinearSolver::run(Vec rhs, Vec x, double relative_tolerance, int limit, bool& converged) {
   check_petsc(KSPSetTolerances(ksp_, relative_tolerance, 0.0, 1e30, limit), "KSPSetTolerances");
   check_petsc(VecSet(x, 0.0), "VecSet");
   check_petsc(KSPSolve(ksp_, rhs, x), "KSPSolve");
   PetscInt iterations = 0;
   check_petsc(KSPGetIterationNumber(ksp_, &iterations), "KSPGetIterationNumber");
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  check_petsc(KSPGetConvergedReason(ksp_, &reason), "KSPGetConvergedReason");
+  converged = reason > 0;
+  return static_cast<int>(iterations);
+}
+
+int LinearSolver::solve(Mat matrix, Vec rhs, Vec x, double relative_tolerance) {
+  check_petsc(KSPSetOperators(ksp_, matrix, matrix), "KSPSetOperators");
+  int iterations = 0;
+  bool converged = false;
+  if (has_factor_) {
+    check_petsc(KSPSetReusePreconditioner(ksp_, PETSC_TRUE), "KSPSetReusePreconditioner");
+    iterations = run(rhs, x, relative_tolerance, std::min(max_iterations_, max_stale_iterations), converged);
+    has_factor_ = converged && iterations <= stale_iterations;
+  }
+  if (!converged) {
+    check_petsc(KSPSetReusePreconditioner(ksp_, PETSC_FALSE), "KSPSetReusePreconditioner");
+    iterations += run(rhs, x, relative_tolerance, max_iterations_, converged);
+    has_factor_ = keeps_factor_ && converged;
+  }
   PetscReal norm = 0;
   check_petsc(VecNorm(x, NORM_2, &norm), "VecNorm");
   if (!(norm > 0) || !std::isfinite(norm)) check_petsc(VecCopy(rhs, x), "VecCopy");
-  return static_cast<int>(iterations);
+  return iterations;
 }
 
 }  // namespace hexfield::solve

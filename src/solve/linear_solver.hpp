@@ -6,7 +6,8 @@
 
 namespace hexfield::solve {
 
-/// Conjugate gradients on a symmetric positive-(semi)definite AIJ matrix that keeps its pattern.
+/// Conjugate gradients on a symmetric positive-(semi)definite AIJ matrix that keeps its pattern. A factorisation
+/// serves later matrices too, until it costs more iterations than a new one is worth.
 class LinearSolver {
  public:
   LinearSolver(MPI_Comm comm, Preconditioner preconditioner, int max_iterations);
@@ -20,8 +21,13 @@ class LinearSolver {
   int solve(Mat matrix, Vec rhs, Vec x, double relative_tolerance);
 
  private:
-  MPI_Comm comm_;
+  /// Iterations; sets `converged`.
+  int run(Vec rhs, Vec x, double relative_tolerance, int limit, bool& converged);
+
   KSP ksp_ = nullptr;
+  int max_iterations_;
+  bool keeps_factor_;
+  bool has_factor_ = false;
 };
 
 }  // namespace hexfield::solve

@@ -72,7 +72,9 @@ class Newton {
   double solve_for_step() {
     shift(assembly_.hessian(), trial_.get());
     const double relative = result_.gradient_norm / std::max(start_norm_, 1e-300);
-    const double tolerance = std::min(options_.linear_tolerance, std::sqrt(relative));
+    const bool direct = options_.preconditioner == Preconditioner::cholesky;
+    const double forcing = direct ? std::max(relative, 1e-12) : std::sqrt(relative);
+    const double tolerance = std::min(options_.linear_tolerance, forcing);
     result_.linear_iterations += solver_.solve(assembly_.hessian(), gradient_.get(), step_.get(), tolerance);
     check_petsc(VecScale(step_.get(), -1.0), "VecScale");
     PetscScalar slope = 0;

@@ -112,3 +112,16 @@ TEST(SphericalHarmonics, AlignedFramesAndTheirTwist) {
       EXPECT_GE(p.dot + 1e-12, of_frame(r).dot(of_frame(p.frame * about(Vec3::UnitZ(), degrees))));
   }
 }
+
+TEST(SphericalHarmonics, ProjectionIsTheBestOfManyStarts) {
+  std::mt19937 random(8);
+  std::normal_distribution<double> n;
+  for (int k = 0; k < 60; ++k) {
+    Sh noise;
+    for (double& v : noise) v = n(random);
+    const Sh q = of_frame(random_rotation(random)) + 0.03 * (k % 20) * noise;  // from certain to ambiguous
+    const double reached = project(q).dot;
+    for (int start = 0; start < 30; ++start)
+      EXPECT_LE(project_from(q, random_rotation(random)).dot, reached + 1e-8 * q.norm()) << k;
+  }
+}

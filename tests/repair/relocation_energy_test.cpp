@@ -66,6 +66,11 @@ TEST(RelocationEnergy, TetDerivativesMatchDifferences) {
     if (!std::isfinite(tet_shape(x))) continue;
     const TetShape s = tet_shape_derivatives(x);
     EXPECT_NEAR(s.value, tet_shape(x), 1e-12);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const CornerShape corner = tet_corner_derivatives(x, static_cast<int>(c));
+      EXPECT_NEAR((corner.gradient - s.gradient[c]).norm(), 0, 1e-12 * (1 + s.gradient[c].norm()));
+      EXPECT_NEAR((corner.hessian - s.hessian[c][c]).norm(), 0, 1e-12 * (1 + s.hessian[c][c].norm()));
+    }
     for (std::size_t c = 0; c < 4; ++c)
       for (int k = 0; k < 3; ++k) {
         auto plus = x, minus = x;

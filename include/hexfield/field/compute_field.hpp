@@ -15,11 +15,11 @@ struct FieldOptions {
   double normal_deviation_degrees = 70;    ///< a vertex whose feature normals differ more stays unconstrained
   double singular_face_edge_factor = 0.6;  ///< split singular faces' edges longer than this times the mean edge
   int max_singular_splits = 20000;
-  int alignment_sweeps = 100;             ///< sweeps of Algorithm 1 before and after matchings are fixed
-  int max_smoothing_iterations = 100;     ///< nonlinear iterations of the octahedral field
-  int max_tet_smoothing_iterations = 30;  ///< nonlinear iterations of the field per tet, after the transfer
-  int tet_smoothing_layers = 8;           ///< rings around singular edges where the field per tet is smoothed
-  double smoothing_tolerance = 1e-4;      ///< relative decrease of the smoothness energy that ends them
+  int alignment_sweeps = 100;              ///< sweeps of Algorithm 1 before and after matchings are fixed
+  int max_smoothing_iterations = 300;      ///< nonlinear iterations of the octahedral field
+  int max_tet_smoothing_iterations = 200;  ///< nonlinear iterations of the field per tet, after the transfer
+  int tet_smoothing_layers = 8;            ///< rings around singular edges where the field per tet is smoothed
+  double smoothing_tolerance = 1e-4;       ///< relative decrease of the smoothness energy that ends them
 };
 
 /// Everything stage 2 makes; complete on rank 0, empty on the others.

@@ -2,12 +2,26 @@
 
 #include <mpi.h>
 
+#include <string>
+#include <vector>
+
 #include "hexfield/base/control.hpp"
 #include "hexfield/field/frame_field.hpp"
 #include "hexfield/map/corner_map.hpp"
 #include "hexfield/mesh/features.hpp"
 
 namespace hexfield {
+
+/// What one solve of stage 4 or 6 cost, in the order in which they ran.
+struct SolveRecord {
+  std::string what;  ///< "fit", "integrable frames 1e+04 1e+04" (the weights w_S and w_I), "untangling", ...
+  int newton_steps = 0;
+  int linear_iterations = 0;
+  double seconds = 0;  ///< of the clock, on this rank
+  /// Tets and edges that make the conforming map after this solve invalid; -1 where it was not looked at.
+  int inverted = -1;
+  int wrong_edges = -1;
+};
 
 /// Parameters of stage 4 (spec-lmff section 8). The builder of the stage adds what it needs.
 struct SeamlessOptions {
@@ -20,6 +34,7 @@ struct SeamlessResult {
   MapReport report;  ///< same on all ranks
   int newton_steps = 0;
   int linear_iterations = 0;
+  std::vector<SolveRecord> solves;  ///< not kept in checkpoints
 };
 
 /// Stage 4: locally injective seamless map that is the identity transition off a cut, matches the field's
@@ -44,6 +59,7 @@ struct IgmResult {
   std::vector<Vec3> where;
   int newton_steps = 0;
   int linear_iterations = 0;
+  std::vector<SolveRecord> solves;  ///< not kept in checkpoints
 };
 
 /// Stages 5 (greedy rounding) and 6: integer-grid map from a valid seamless map; exact after sanitising:

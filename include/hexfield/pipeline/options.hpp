@@ -7,6 +7,7 @@
 #include "hexfield/field/compute_field.hpp"
 #include "hexfield/hex/improve.hpp"
 #include "hexfield/map/compute_map.hpp"
+#include "hexfield/repair/repair_field.hpp"
 
 namespace hexfield {
 
@@ -19,6 +20,7 @@ struct RunOptions {
   double edge_length = 0;       ///< wanted edge length of the hexes in input units; wins over target_hexes when > 0
   double feature_angle = 70;    ///< degrees between face normals that make a feature where the input has no tags
   FieldOptions field;
+  RepairOptions repair;
   SeamlessOptions seamless;
   IgmOptions igm;
   ImproveOptions improve;
@@ -29,6 +31,7 @@ struct RunOptions {
   int threads = 0;                             ///< per rank; 0: the cores that the launcher gave to the rank
   double time_limit = 0;                       ///< seconds after which the run ends at a safe point; 0: none
   double checkpoint_interval = 30;             ///< seconds between checkpoints inside a long solve
+  int tries = 4;                               ///< settings of the repair to try before the run gives up
   int seed = 0;                                ///< of anything random
   bool check = false;                          ///< check every value between the stages
   std::vector<std::string> formats = {"vtk"};  ///< of the hex mesh; vtk is always written

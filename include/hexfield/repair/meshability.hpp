@@ -29,8 +29,8 @@ struct FieldView {
 bool edge_meshable(const FieldView& view, const EdgeKey& edge);
 
 struct VertexMapOptions {
-  int refinements = 1;         ///< how often the one-ring may be split when no map is found on it
-  int sweeps = 20;             ///< of Algorithm 1 on the one-ring alone, for the second guess
+  int refinements = 1;         ///< how often a one-ring too coarse for its constraints may be split
+  int sweeps = 40;             ///< of Algorithm 1 on the one-ring alone, for a guess; four times as many for another
   int max_iterations = 100;    ///< Newton steps of one solve
   double smallest_det = 1e-7;  ///< of the unit images of three ring vertices, to count as positive
 };

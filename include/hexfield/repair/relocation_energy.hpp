@@ -21,6 +21,14 @@ struct TetShape {
 double tet_shape(const std::array<Vec3, 4>& x);
 TetShape tet_shape_derivatives(const std::array<Vec3, 4>& x);
 
+/// The same for one moving corner (0 to 3).
+struct CornerShape {
+  double value = 0;
+  Vec3 gradient;
+  Mat3 hessian;
+};
+CornerShape tet_corner_derivatives(const std::array<Vec3, 4>& x, int corner);
+
 /// The same in the plane perpendicular to the unit `normal`: log(tr(J^T J) / det(J)) of the projected triangle;
 /// infinite where it does not turn counter-clockwise about the normal.
 struct TriangleShape {

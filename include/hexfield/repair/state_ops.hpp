@@ -13,8 +13,9 @@
 /// what the named edges or tets cost, never the whole mesh. Nothing here is collective.
 namespace hexfield {
 
-/// Lets everything in a RepairState follow splits: features, frames and matchings, codes, pairs, kept edges
-/// and target lengths (mean of the parents).
+/// Lets everything in a RepairState follow edits: features, frames and matchings, codes, pairs, kept edges
+/// and target lengths (mean of the parents of a new vertex). Where a collapse makes two singular edges one, the
+/// code is that of one of them: the caller computes it again.
 class StateAttributes {
  public:
   explicit StateAttributes(RepairState& state);
@@ -25,6 +26,8 @@ class StateAttributes {
    public:
     explicit RepairValues(RepairState& state) : state_(state) {}
     void on_split(const TetMesh& mesh, const SplitRecord& record) override;
+    void on_collapse(const TetMesh& mesh, const CollapseRecord& record) override;
+    void on_swap(const TetMesh& mesh, const SwapRecord& record) override;
     void on_compact(const std::vector<TetId>&) override {}
 
    private:
@@ -40,6 +43,9 @@ class StateAttributes {
 VertexId split_edge(RepairState& state, VertexId a, VertexId b);
 VertexId split_face(RepairState& state, HalfFaceId h);
 VertexId split_tet(RepairState& state, TetId t);
+/// The collapse and the swap of mesh/edit.hpp on a whole state; legality is up to the caller.
+void collapse_edge(RepairState& state, VertexId from, VertexId to);
+void swap_edge(RepairState& state, TetId seed, VertexId a, VertexId b, const RingTriangulation& triangulation);
 /// Removes tombstones of tets.
 void compact(RepairState& state);
 
@@ -69,6 +75,9 @@ void update_codes(RepairState& state, std::span<const EdgeKey> edges);
 /// other tets are boundary values. `sign` says how the axes of singular edges get their sign.
 AlignReport smooth(RepairState& state, std::span<const TetId> tets, int sweeps,
                    SingularSign sign = SingularSign::by_geometry);
+
+/// The same, aligned to features only: what singular edges shall follow.
+AlignReport smooth_to_features(RepairState& state, std::span<const TetId> tets, int sweeps);
 
 /// Everything that must always hold: the checks of mesh, features, field and graph, and sizes.
 std::vector<Violation> check(const RepairState& state);

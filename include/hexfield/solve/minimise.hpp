@@ -33,7 +33,7 @@ class EnergyTerm {
 /// How a Newton system H dy = -g is preconditioned.
 enum class Preconditioner {
   amg,           ///< smoothed-aggregation or classical multigrid on H; scalable
-  cholesky,      ///< sparse direct factorisation of H, whole on every rank; for small systems
+  cholesky,      ///< sparse direct factorisation of H or of that of an earlier step, whole on every rank
   block_jacobi,  ///< point blocks of `block_size`
 };
 
@@ -42,8 +42,9 @@ struct NewtonOptions {
   double gradient_tolerance = 1e-6;   ///< stop when |g| <= tolerance * max(1, |g at the start|)
   double decrease_tolerance = 1e-12;  ///< stop when the predicted decrease is below this fraction of |E|
   int max_linear_iterations = 300;
-  double linear_tolerance =
-      1e-1;  ///< forcing term: min(linear_tolerance, sqrt(|g| / |g at the start|)) relative residual
+  /// Forcing term: relative residual min(linear_tolerance, sqrt(|g| / |g at the start|)), with cholesky without the
+  /// root, as its iterations are few.
+  double linear_tolerance = 1e-1;
   Preconditioner preconditioner = Preconditioner::amg;
   int block_size = 1;
   /// Called after every accepted step with (iteration, energy, gradient norm); return false to stop.

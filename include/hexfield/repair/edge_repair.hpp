@@ -1,0 +1,50 @@
+#pragma once
+
+#include "hexfield/repair/repair_state.hpp"
+
+/// Repairs of singular edges (Liu & Bommes 2023 section 5.2 "Establishing Meshable Edges"; spec-lmff section 5.4).
+/// Each works on the tets at the edge, its ends and their neighbours only, returns whether it mended something, and
+/// leaves the field as it was when it did not: it may have refined the mesh then. Nothing here is collective.
+namespace hexfield {
+
+/// The isolation split of spec-lmff section 1 for the one-ring of v: afterwards features and arcs that are not at v
+/// are not in its one-ring either, as far as splits can do it. Returns the number of splits.
+int split_one_ring(RepairState& state, VertexId v);
+
+/// D1: an inner edge with a monodromy about two axes is unzipped on one triangle at it, such that it keeps a
+/// quarter-turn and the new arc of two edges takes another one. Half-turns about edge diagonals are no product of two
+/// quarter-turns: there the edge keeps a half-turn, which lower_index() mends. Of all triangles at the edge and all
+/// factorisations the one that leaves the least turning around the edge is taken.
+bool repair_compound_edge(RepairState& state, const EdgeKey& edge);
+
+/// An inner edge of |code| >= 2 gives one quarter-turn to a new arc of two edges, such that |code| drops by one.
+bool lower_index(RepairState& state, const EdgeKey& edge);
+
+/// D4: unzips a quarter-turn inside a sector between feature faces that holds no quad, so that it holds one more, and
+/// inside one of four or more quads, so that it holds one less where the edge has |code| >= 2. One sector per call.
+bool repair_sectors(RepairState& state, const EdgeKey& edge);
+
+/// Makes the three singular edges of an inner triangle regular by one matching, if that does it.
+bool remove_singular_triangle(RepairState& state, const FaceKey& face);
+
+/// An arc that runs along the boundary at v off all features (two singular edges of one code +-1, at least one of
+/// them on the boundary) is zipped through a fan inside: v gets regular, and the arc passes below it.
+bool push_inside(RepairState& state, VertexId v);
+
+/// What repair_edges() did.
+struct EdgeRepairCounts {
+  int compound = 0, index = 0, sectors = 0, triangles = 0, pushed = 0;
+  int total() const { return compound + index + sectors + triangles + pushed; }
+};
+
+/// Which of them repair_edges() applies. Stage I of the schedule leaves compound edges to shrink (section 5.7).
+struct EdgeRepairOptions {
+  bool compound = true, index = true, sectors = true, triangles = true, push = true;
+  int rounds = 6;  ///< at most; ends when a round mends nothing
+};
+
+/// Applies them to all edges of the state, in key order, on disjoint places at the same time. The result does not
+/// depend on the number of threads.
+EdgeRepairCounts repair_edges(RepairState& state, const EdgeRepairOptions& options = {});
+
+}  // namespace hexfield
