@@ -50,18 +50,17 @@ std::vector<Piercing> taut_string(const TetMesh& mesh, std::span<const FaceKey> 
 }
 
 // A spoke: index of the path vertex and the vertex beside the path.
-using Spoke = std::pair<std::size_t, VertexId>;
+using Rung = std::pair<std::size_t, VertexId>;
 
 class SpokeSearch {
  public:
   SpokeSearch(const RepairState& state, const StripRequest& request) : state_(state), request_(request) {
     taken_.insert(request.path.begin(), request.path.end());
-    taken_.insert(request.forbidden.begin(), request.forbidden.end());
   }
 
   // Cheapest chain of spokes (Dijkstra; ties by path index, then vertex id); empty when there is none.
-  std::vector<Spoke> run() {
-    const Spoke start{0, request_.start};
+  std::vector<Rung> run() {
+    const Rung start{0, request_.start};
     best_[start] = {0.0, start};
     queue_.insert({0.0, start});
     while (!queue_.empty()) {
@@ -77,35 +76,37 @@ class SpokeSearch {
  private:
   struct Reached {
     double cost;
-    Spoke before;
+    Rung before;
   };
 
   VertexId path(std::size_t i) const { return request_.path[i]; }
 
-  bool is_goal(const Spoke& s) const {
+  bool is_goal(const Rung& s) const {
     if (s.first + 1 != request_.path.size()) return false;
     if (request_.end.valid()) return s.second == request_.end;
-    return s != Spoke{0, request_.start} && !ring_of(state_.mesh, path(s.first), s.second).closed;
+    if (s == Rung{0, request_.start} || ring_of(state_.mesh, path(s.first), s.second).closed) return false;
+    return request_.exits.empty() || std::ranges::find(request_.exits, s.second) != request_.exits.end();
   }
 
-  std::vector<Spoke> chain_to(Spoke s) const {
-    std::vector<Spoke> chain{s};
+  std::vector<Rung> chain_to(Rung s) const {
+    std::vector<Rung> chain{s};
     while (best_.at(s).before != s) chain.push_back(s = best_.at(s).before);
     std::reverse(chain.begin(), chain.end());
     return chain;
   }
 
   // The whole end edge may be special; all other spokes are split and must not be.
-  bool admissible(const Spoke& s, const EdgeRing& ring) const {
+  bool admissible(const Rung& s, const EdgeRing& ring) const {
     const bool last = s.first + 1 == request_.path.size();
     if (last && request_.end.valid() && s.second == request_.end) return true;
     if (is_special(state_, edge_key(path(s.first), s.second))) return false;
     bool in_feature = !ring.closed;
     for (HalfFaceId h : ring.crossings) in_feature = in_feature || is_feature_face(state_, h);
-    return !in_feature || request_.cross_features || (last && !request_.end.valid() && !ring.closed);
+    if (!in_feature || s.first >= request_.held) return true;
+    return last && std::ranges::find(request_.exits, s.second) != request_.exits.end();
   }
 
-  void relax(const Spoke& from, const Spoke& to, double cost) {
+  void relax(const Rung& from, const Rung& to, double cost) {
     if (!admissible(to, ring_of(state_.mesh, path(to.first), to.second))) return;
     const double total = cost + cost_of(to);
     const auto found = best_.find(to);
@@ -114,7 +115,7 @@ class SpokeSearch {
     queue_.insert({total, to});
   }
 
-  void expand(const Spoke& s, double cost) {
+  void expand(const Rung& s, double cost) {
     const VertexId m = path(s.first);
     const EdgeRing ring = ring_of(state_.mesh, m, s.second);
     for (HalfFaceId h : ring.crossings) {
@@ -130,7 +131,7 @@ class SpokeSearch {
   }
 
   // 0.1 per spoke, and up to 2 for its angle against the wanted side, seen along the path.
-  double cost_of(const Spoke& s) const {
+  double cost_of(const Rung& s) const {
     const Vec3 wanted = request_.side.empty() ? Vec3::Zero() : request_.side[s.first];
     if (wanted.isZero()) return 0.1;
     const VertexId before = path(s.first == 0 ? 0 : s.first - 1);
@@ -145,8 +146,8 @@ class SpokeSearch {
   const RepairState& state_;
   const StripRequest& request_;
   std::set<VertexId> taken_;
-  std::map<Spoke, Reached> best_;
-  std::set<std::pair<double, Spoke>> queue_;
+  std::map<Rung, Reached> best_;
+  std::set<std::pair<double, Rung>> queue_;
 };
 
 void add_face(Strip& strip, VertexId a, VertexId b, VertexId c) {
@@ -167,7 +168,8 @@ std::vector<VertexId> insert_path(RepairState& state, std::span<const FaceKey> f
 }
 
 std::vector<EdgeKey> Strip::boundary() const {
-  std::vector<EdgeKey> edges{start};
+  std::vector<EdgeKey> edges;
+  if (!from_boundary) edges.push_back(start);
   for (const auto* side : {&first, &second})
     for (std::size_t i = 0; i + 1 < side->size(); ++i) edges.push_back(edge_key((*side)[i], (*side)[i + 1]));
   if (!at_boundary && first.back() != second.back()) edges.push_back(edge_key(first.back(), second.back()));
@@ -177,12 +179,13 @@ std::vector<EdgeKey> Strip::boundary() const {
 }
 
 std::optional<Strip> build_strip(RepairState& state, const StripRequest& request) {
-  const std::vector<Spoke> spokes = SpokeSearch(state, request).run();
+  const std::vector<Rung> spokes = SpokeSearch(state, request).run();
   if (spokes.empty()) return {};
   Strip strip;
   strip.first = request.path;
-  strip.second = {request.start};
-  strip.start = edge_key(request.path.front(), request.start);
+  strip.second = {request.split_start ? split_edge(state, request.path.front(), request.start) : request.start};
+  strip.start = edge_key(request.path.front(), strip.second.front());
+  strip.from_boundary = request.split_start;
   strip.at_boundary = !request.end.valid();
   for (std::size_t j = 1; j < spokes.size(); ++j) {
     const VertexId before = request.path[spokes[j - 1].first];

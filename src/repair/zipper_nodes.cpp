@@ -40,12 +40,6 @@ LabelledRing ring_with_labels(const RepairState& state, VertexId v, const EdgeKe
   return {ring.tets, transport_around(state.field, ring, out)};
 }
 
-bool is_zipper(const RepairState& state, VertexId v) {
-  const auto edges = singular_edges_at(state, v);
-  return edges.size() == 2 && std::abs(code_of(state, edges[0])) == 1 &&
-         code_of(state, edges[0]) == -code_of(state, edges[1]);
-}
-
 void mark_arc(RepairState& state, const std::vector<VertexId>& arc, EdgeCode code, int pair) {
   for (std::size_t i = 0; i + 1 < arc.size(); ++i) {
     const EdgeKey e = edge_key(arc[i], arc[i + 1]);
@@ -81,10 +75,11 @@ bool path_is_regular(const RepairState& state, const std::vector<VertexId>& path
 }  // namespace
 
 std::vector<UnzipSeed> unzip_seeds(const RepairState& state, const FreeZipper& zipper) {
-  std::array<Vec3, 2> direction;
-  for (std::size_t i = 0; i < 2; ++i) direction[i] = direction_of_arc(state, zipper.node, zipper.edges[i]);
+  std::array<Vec3, 2> direction{Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t i = 0; i < zipper.edges.size(); ++i)
+    direction[i] = direction_of_arc(state, zipper.node, zipper.edges[i]);
   std::vector<UnzipSeed> seeds;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < zipper.edges.size(); ++i) {
     const LabelledRing ring = ring_with_labels(state, zipper.node, zipper.edges[i]);
     for (std::size_t k = 0; k < ring.tets.size(); ++k)
       seeds.push_back({ring.tets[k], octahedral::negate(ring.labels[k]), zipper.edges[i], zipper.node,
@@ -106,9 +101,9 @@ UnzipPartners unzip_partners(const RepairState& state, std::span<const FreeZippe
 
 bool unzip(RepairState& state, const UnzipPath& path, const ZipperOptions& options, Strip* result) {
   const EdgeCode code = code_of(state, path.seed.edge);
-  if (!is_zipper(state, path.seed.origin) || (path.partner && !is_zipper(state, path.partner->node))) return false;
+  if (!is_free_zipper(state, path.seed.origin) || (path.partner && !is_free_zipper(state, path.partner->node)))
+    return false;
   StripRequest request;
-  request.cross_features = true;
   request.start = other_end(path.seed.edge, path.seed.origin);
   std::optional<PartnerEnds> ends;
   std::optional<Vec3> to;
@@ -147,19 +142,11 @@ bool untouched(const RepairState& state, const UnzipPath& path, const std::set<V
   return std::all_of(path.tets.begin(), path.tets.end(), [&](TetId t) { return state.mesh.alive(t); });
 }
 
-// The zipper node with the edges that it has now: splits may have shortened them.
-FreeZipper as_it_is(const RepairState& state, FreeZipper z) {
-  const auto edges = singular_edges_at(state, z.node);
-  z.edges = {edges[0], edges[1]};
-  if (code_of(state, z.edges[0]) > 0) std::swap(z.edges[0], z.edges[1]);
-  return z;
-}
-
 std::vector<FreeZipper> left_of(const RepairState& state, std::span<const FreeZipper> zippers,
                                 const std::set<VertexId>& consumed) {
   std::vector<FreeZipper> left;
   for (const FreeZipper& z : zippers)
-    if (!consumed.contains(z.node) && is_zipper(state, z.node)) left.push_back(as_it_is(state, z));
+    if (!consumed.contains(z.node) && is_free_zipper(state, z.node)) left.push_back(free_zipper_at(state, z.node));
   return left;
 }
 
@@ -177,14 +164,15 @@ int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
   });
   int unzipped = 0;
   for (std::size_t i = 0; i < zippers.size() && unzipped < options.cap; ++i) {
-    if (consumed.contains(zippers[i].node) || !is_zipper(state, zippers[i].node)) continue;
+    if (consumed.contains(zippers[i].node) || !is_free_zipper(state, zippers[i].node)) continue;
     if (!paths[i]) continue;
     if (!untouched(state, *paths[i], consumed))
       paths[i] =
-          find_unzip_path(state, unzip_seeds(state, as_it_is(state, zippers[i])),
+          find_unzip_path(state, unzip_seeds(state, free_zipper_at(state, zippers[i].node)),
                           unzip_partners(state, left_of(state, zippers, consumed)), blocked, consumed, options.search);
+    if (!paths[i]) continue;  // the next pass sees another field
     Strip strip;
-    if (!paths[i] || !unzip(state, *paths[i], options, &strip)) continue;
+    if (!unzip(state, *paths[i], options, &strip)) continue;
     blocked.insert(strip.faces.begin(), strip.faces.end());
     consumed.insert(zippers[i].node);
     if (paths[i]->partner) consumed.insert(paths[i]->partner->node);

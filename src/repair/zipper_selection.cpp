@@ -94,6 +94,13 @@ void measure(const RepairState& state, FlowChain& chain) {
     chain.length += (state.mesh.point(b) - state.mesh.point(a)).norm();
   }
   if (chain.closed && chain.codes.front() != chain.codes.back()) chain.zippers.insert(chain.zippers.begin(), 0);
+  if (chain.closed) return;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const VertexId v = end == 0 ? chain.vertices.front() : chain.vertices.back();
+    chain.on_surface[end] = on_feature_face(state, v);
+    if (!chain.on_surface[end] || !is_free_zipper(state, v)) continue;
+    chain.zippers.insert(end == 0 ? chain.zippers.begin() : chain.zippers.end(), end == 0 ? 0 : edges);
+  }
 }
 
 // Closed chains start at a zipper node if there is one.
@@ -135,77 +142,88 @@ std::vector<FlowChain> flow_chains(const RepairState& state) {
   return chains;
 }
 
+bool is_free_zipper(const RepairState& state, VertexId v) {
+  const auto edges = singular_edges_at(state, v);
+  if (edges.size() == 2)
+    return std::abs(code_of(state, edges[0])) == 1 && code_of(state, edges[0]) == -code_of(state, edges[1]) &&
+           !on_feature_face(state, v);
+  if (edges.size() != 1 || std::abs(code_of(state, edges[0])) != 1 || !on_boundary(state.mesh, v)) return false;
+  for (const EdgeKey& e : edges_at(state.mesh, v))
+    if (state.features.edges.contains(e)) return false;
+  return classify_vertex(state.mesh, state.features, state.field, state.codes, v, edges).kind == NodeKind::zipper;
+}
+
+FreeZipper free_zipper_at(const RepairState& state, VertexId v) {
+  FreeZipper z;
+  z.node = v;
+  z.edges = singular_edges_at(state, v);
+  if (z.edges.size() == 2 && code_of(state, z.edges[0]) > 0) std::swap(z.edges[0], z.edges[1]);
+  return z;
+}
+
 namespace {
 
+// Flow between consecutive zipper nodes and ends.
 struct Segments {
-  std::vector<double> length;  // between consecutive zipper nodes and ends; zipper k lies between k and k + 1
+  std::vector<double> before, after;  // per zipper node; infinite beyond a surface, 0 beyond another end
   double mean = 0;
 };
 
 Segments segments_of(const FlowChain& chain) {
-  std::vector<std::size_t> stops = chain.zippers;
-  if (chain.closed) {
-    stops.push_back(chain.vertices.size() - 1);
-  } else {
-    stops.insert(stops.begin(), 0);
-    stops.push_back(chain.vertices.size() - 1);
-  }
+  const std::size_t end = chain.vertices.size() - 1, zippers = chain.zippers.size();
+  auto stretch = [&](std::size_t a, std::size_t b) { return std::abs(chain.flow[a] - chain.flow[b]); };
   Segments s;
-  for (std::size_t i = 0; i + 1 < stops.size(); ++i)
-    s.length.push_back(std::abs(chain.flow[stops[i + 1]] - chain.flow[stops[i]]));
-  for (double l : s.length) s.mean += l / static_cast<double>(s.length.size());
-  if (chain.closed) s.length.insert(s.length.begin(), s.length.back());
+  std::set<std::size_t> stops(chain.zippers.begin(), chain.zippers.end());
+  stops.insert({0, end});
+  for (auto it = std::next(stops.begin()); it != stops.end(); ++it)
+    s.mean += stretch(*std::prev(it), *it) / static_cast<double>(stops.size() - 1);
+  const double surface = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < zippers; ++k) {
+    const std::size_t here = chain.zippers[k];
+    if (k > 0)
+      s.before.push_back(stretch(chain.zippers[k - 1], here));
+    else
+      s.before.push_back(chain.closed ? stretch(chain.zippers.back(), end)
+                                      : (chain.on_surface[0] ? surface : stretch(0, here)));
+    if (k + 1 < zippers)
+      s.after.push_back(stretch(here, chain.zippers[k + 1]));
+    else
+      s.after.push_back(!chain.closed && chain.on_surface[1] ? surface : stretch(here, end));
+  }
   return s;
 }
 
-// First and last zipper node that count: a close pair beside a reversed end of the arc is noise.
-std::pair<std::size_t, std::size_t> trimmed(const FlowChain& chain, const Segments& s,
-                                            std::array<bool, 2> surface_zipper, double peak) {
-  std::size_t first = 0, last = chain.zippers.size();
-  if (chain.closed) return {first, last};
-  if (surface_zipper[0] && last - first >= 2 && s.length[1] < peak * s.mean) first += 2;
-  if (surface_zipper[1] && last - first >= 2 && s.length[last - 1] < peak * s.mean) last -= 2;
-  return {first, last};
-}
-
-// The highest (or lowest) zipper node in [first, last) that lies beyond both ends by `margin`.
-void add_peak(const FlowChain& chain, std::size_t first, std::size_t last, double sign, double margin,
-              std::set<std::size_t>& kept) {
-  std::size_t best = first;
-  for (std::size_t k = first; k < last; ++k)
-    if (sign * chain.flow[chain.zippers[k]] > sign * chain.flow[chain.zippers[best]]) best = k;
+// The highest (or lowest) zipper node if it lies beyond both ends by `margin`.
+void add_peak(const FlowChain& chain, double sign, double margin, std::set<std::size_t>& kept) {
+  std::size_t best = chain.zippers.front();
+  for (std::size_t i : chain.zippers)
+    if (sign * chain.flow[i] > sign * chain.flow[best]) best = i;
   const double end = std::max(sign * chain.flow.front(), sign * chain.flow.back());
-  if (sign * chain.flow[chain.zippers[best]] >= end + margin) kept.insert(chain.zippers[best]);
+  if (sign * chain.flow[best] >= end + margin) kept.insert(best);
 }
 
 }  // namespace
 
-std::vector<std::size_t> kept_zippers(const FlowChain& chain, double mean_target, std::array<bool, 2> on_surface,
-                                      std::array<bool, 2> surface_zipper, const SelectionOptions& options) {
-  if (chain.zippers.empty()) return {};
+std::vector<std::size_t> kept_zippers(const FlowChain& chain, double mean_target, const SelectionOptions& options) {
+  const std::size_t count = chain.zippers.size();
+  if (count == 0) return {};
   const Segments s = segments_of(chain);
-  const auto [first, last] = trimmed(chain, s, surface_zipper, options.peak);
-  const std::size_t count = last - first;
   std::set<std::size_t> kept;
-  if (count > 0 && !chain.closed) {
-    // The flow turns back at a zipper node: it is the end of what came before.
-    const double sign = chain.flow[chain.zippers[first]] > chain.flow[chain.zippers[first] - 1] ? 1 : -1;
-    const double margin = options.peak * s.mean;
-    if (count % 2 == 1) {
-      add_peak(chain, first, last, sign, -std::numeric_limits<double>::infinity(), kept);
-    } else {
-      add_peak(chain, first, last, 1, margin, kept);
-      add_peak(chain, first, last, -1, margin, kept);
-    }
+  if (!chain.closed && count % 2 == 1) {
+    // The flow turns back at a zipper node: whether down or up tells where the first one lies.
+    const std::size_t first = chain.zippers.front();
+    const double beside = chain.flow[first == 0 ? 1 : first - 1];
+    add_peak(chain, chain.flow[first] > beside ? 1 : -1, -std::numeric_limits<double>::infinity(), kept);
+  } else if (!chain.closed) {
+    add_peak(chain, 1, options.peak * s.mean, kept);
+    add_peak(chain, -1, options.peak * s.mean, kept);
   }
-  const bool crowded =
-      count > 2 && static_cast<double>(count) > options.crowded * static_cast<double>(chain.vertices.size());
+  if (count > 2 && static_cast<double>(count) > options.crowded * static_cast<double>(chain.vertices.size()))
+    return {kept.begin(), kept.end()};
   const double longer = std::min(options.segment * s.mean, options.absolute_segment * mean_target);
-  for (std::size_t k = first; k < last && !crowded; ++k) {
-    const bool before = s.length[k] > longer || (!chain.closed && k == 0 && on_surface[0]);
-    const bool after = s.length[k + 1] > longer || (!chain.closed && k + 1 == chain.zippers.size() && on_surface[1]);
-    if (before && after && (s.length[k] > longer || s.length[k + 1] > longer)) kept.insert(chain.zippers[k]);
-  }
+  for (std::size_t k = 0; k < count; ++k)
+    if (s.before[k] > longer && s.after[k] > longer && std::isfinite(std::min(s.before[k], s.after[k])))
+      kept.insert(chain.zippers[k]);
   return {kept.begin(), kept.end()};
 }
 
@@ -213,27 +231,11 @@ std::vector<FreeZipper> select_free_zippers(const RepairState& state, const Sele
   double mean_target = 0;
   for (double l : state.target_length) mean_target += l / static_cast<double>(state.target_length.size());
   std::vector<FreeZipper> selected;
-  for (const FlowChain& chain : flow_chains(state)) {
-    if (chain.zippers.empty()) continue;
-    std::array<bool, 2> surface{}, reversed{};
-    for (std::size_t end = 0; end < 2 && !chain.closed; ++end) {
-      const VertexId v = end == 0 ? chain.vertices.front() : chain.vertices.back();
-      surface[end] = on_feature_face(state, v);
-      if (!surface[end]) continue;
-      const auto node =
-          classify_vertex(state.mesh, state.features, state.field, state.codes, v, singular_edges_at(state, v));
-      reversed[end] = node.kind == NodeKind::zipper;
+  for (const FlowChain& chain : flow_chains(state))
+    for (std::size_t i : kept_zippers(chain, mean_target, options)) {
+      selected.push_back(free_zipper_at(state, chain.vertices[i]));
+      selected.back().arc_length = chain.length;
     }
-    for (std::size_t i : kept_zippers(chain, mean_target, surface, reversed, options)) {
-      const std::size_t before = i == 0 ? chain.vertices.size() - 2 : i - 1;
-      FreeZipper z;
-      z.node = chain.vertices[i];
-      z.edges = {edge_key(chain.vertices[before], z.node), edge_key(z.node, chain.vertices[i + 1])};
-      if (state.codes.at(z.edges[0]) > 0) std::swap(z.edges[0], z.edges[1]);
-      z.arc_length = chain.length;
-      selected.push_back(z);
-    }
-  }
   std::sort(selected.begin(), selected.end(), [](const FreeZipper& a, const FreeZipper& b) {
     return a.arc_length != b.arc_length ? a.arc_length > b.arc_length : a.node < b.node;
   });

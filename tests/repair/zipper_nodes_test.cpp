@@ -73,3 +73,88 @@ TEST(ZipperNodes, BothZipperNodesOfABoxUnzipToItsEnds) {
   EXPECT_EQ(compute_codes(state.mesh, state.features, state.field), computed.codes);
   EXPECT_FALSE(state.pairs.empty());
 }
+
+namespace {
+
+// Adds a second loop of arcs of zipper_state() that starts at `corner`; `turns` = 1 or 3 quarter-turns.
+void add_loop(RepairState& state, const Vec3& corner, int turns) {
+  const Vec3 x(1, 0, 0), d(1, 1, 1), normal(0, 1, -1);
+  for (int turn = 0; turn < turns; ++turn)
+    for (int a = 0; a < 2; ++a)
+      for (int b = 0; b < 2; ++b) {
+        const Vec3 p = corner + a * x + b * d;
+        hexfield::testing::turn_face(state, {p, p + x, p + d}, 0, normal);
+        hexfield::testing::turn_face(state, {p + x, p + d, p + x + d}, 0, normal);
+      }
+  state.codes = compute_codes(state.mesh, state.features, state.field);
+}
+
+}  // namespace
+
+TEST(ZipperNodes, AntiParallelPartnersUnzipIntoEachOther) {
+  for (int turns : {1, 3}) {
+    RepairState state = zipper_state({14, 6, 6}, {2, 1, 1});
+    add_loop(state, {8, 3, 3}, turns);
+    ASSERT_EQ(num_zippers(state), 4u);
+    const auto zippers = select_free_zippers(state);
+    ASSERT_EQ(zippers.size(), 4u);
+    const auto right = std::ranges::find(zippers, vertex_at(state.mesh, {6, 3, 3}), &FreeZipper::node);
+    ASSERT_NE(right, zippers.end());
+    const auto path = find_unzip_path(state, unzip_seeds(state, *right), unzip_partners(state, zippers), {}, {});
+    ASSERT_TRUE(path && path->partner);
+    EXPECT_EQ(path->partner->node, vertex_at(state.mesh, {8, 3, 3}));
+    ASSERT_TRUE(unzip(state, *path, {}));
+    EXPECT_EQ(num_zippers(state), 2u) << turns;
+    EXPECT_EQ(unzip_free_zipper_nodes(state), 2);
+    EXPECT_EQ(sentences(check(state)), "");
+    EXPECT_EQ(defects(state), std::vector<std::string>());
+    EXPECT_EQ(arcs_through(state), (std::map<EdgeCode, int>{{-1, 1}, {1, 1}}));
+    EXPECT_EQ(compute_codes(state.mesh, state.features, state.field), state.codes);
+  }
+}
+
+TEST(ZipperNodes, APatchThatReachesATransversalBoundaryLeavesOneZipperNode) {
+  RepairState state = zipper_state({6, 4, 4}, {0, 1, 1});
+  // One triangle more, so that the patch meets x = 0 in an edge and not in a vertex.
+  hexfield::testing::turn_face(state, {Vec3(0, 1, 1), Vec3(0, 2, 2), Vec3(1, 2, 2)}, 0, Vec3(0, 1, -1));
+  state.codes = compute_codes(state.mesh, state.features, state.field);
+  EXPECT_EQ(num_zippers(state), 1u);
+  EXPECT_EQ(unzip_free_zipper_nodes(state), 1);
+  EXPECT_EQ(sentences(check(state)), "");
+  EXPECT_EQ(defects(state), std::vector<std::string>());
+  EXPECT_EQ(arcs_through(state), (std::map<EdgeCode, int>{{-1, 1}, {1, 1}}));
+}
+
+TEST(ZipperNodes, AnArcThatMeetsTheSurfaceWithReversedFlowUnzipsThroughTheDomain) {
+  RepairState state = box_state(5, 4, 4);
+  hexfield::testing::turn_face(state, {Vec3(0, 1, 1), Vec3(0, 2, 2), Vec3(1, 2, 2)}, 0, Vec3(0, 1, -1));
+  state.codes = compute_codes(state.mesh, state.features, state.field);
+  const VertexId tip = vertex_at(state.mesh, {1, 2, 2});
+  ASSERT_EQ(num_zippers(state), 1u);
+  ASSERT_TRUE(is_free_zipper(state, tip));
+  // The sign of the whole arc is that of its plus side: the zipper node moves into the surface.
+  EdgeKey minus{};
+  for (const EdgeKey& e : singular_edges_at(state, tip))
+    if (state.codes.at(e) == -1) minus = e;
+  state.codes[minus] = 1;
+  const VertexId end = minus[0] == tip ? minus[1] : minus[0];
+  ASSERT_TRUE(is_free_zipper(state, end));
+  const auto selected = select_free_zippers(state);
+  ASSERT_EQ(selected.size(), 1u);
+  EXPECT_EQ(selected[0].node, end);
+  EXPECT_EQ(unzip_free_zipper_nodes(state), 1);
+  EXPECT_EQ(sentences(check(state)), "");
+  EXPECT_EQ(defects(state), std::vector<std::string>());
+  EXPECT_EQ(arcs_through(state), (std::map<EdgeCode, int>{{-1, 1}, {1, 1}}));
+}
+
+TEST(ZipperNodes, AZipperNodeBesideTheBoundaryIsZipped) {
+  RepairState state = box_state(5, 4, 4);
+  const EdgeCodes before = state.codes;
+  hexfield::testing::turn_face(state, {Vec3(0, 1, 1), Vec3(0, 2, 2), Vec3(1, 2, 2)}, 0, Vec3(0, 1, -1));
+  state.codes = compute_codes(state.mesh, state.features, state.field);
+  ASSERT_EQ(num_zippers(state), 1u);
+  EXPECT_EQ(zip_near_boundary(state), 1);
+  EXPECT_EQ(state.codes, before);
+  EXPECT_EQ(sentences(check(state)), "");
+}

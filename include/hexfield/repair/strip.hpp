@@ -21,21 +21,25 @@ std::vector<VertexId> insert_path(RepairState& state, std::span<const FaceKey> f
 /// by triangles (path vertex, side, next side) and (path vertex, next path vertex, side), through no feature
 /// face, and its second side runs through the middles of the spokes.
 struct StripRequest {
-  std::vector<VertexId> path;         ///< first side: consecutive vertices are edges of the mesh
-  VertexId start;                     ///< the strip starts with the edge (path.front(), start), which stays whole
-  VertexId end;                       ///< it ends with (path.back(), end), or, if invalid, with a boundary edge
-  std::vector<Vec3> side;             ///< per path vertex: where the second side should lie; zero: anywhere
-  bool cross_features = false;        ///< spokes may lie in a feature face that the path crosses
-  std::vector<VertexId> forbidden{};  ///< no spoke ends there
+  std::vector<VertexId> path;  ///< first side: consecutive vertices are edges of the mesh
+  VertexId start;              ///< the strip starts with the edge (path.front(), start)
+  bool split_start = false;    ///< the start, a boundary edge, is split; otherwise it stays whole and Z has all of it
+  VertexId end;                ///< it ends with (path.back(), end), or, if invalid, with a boundary edge
+  std::vector<VertexId> exits{};  ///< if not empty: the boundary edges (path.back(), exit) it may end with
+  std::vector<Vec3> side;         ///< per path vertex: where the second side should lie; zero: anywhere
+  /// So many first path vertices lie on features: their spokes, but the first and last, stay off feature faces. Others
+  /// may lie in a face that the path crosses.
+  std::size_t held = 0;
 };
 
 struct Strip {
   std::vector<FaceKey> faces;    ///< Z
   std::vector<VertexId> first;   ///< the path
   std::vector<VertexId> second;  ///< from `start` to `end` or the boundary
-  EdgeKey start;                 ///< (path.front(), start)
+  EdgeKey start;                 ///< (first.front(), second.front())
+  bool from_boundary = false;    ///< starts with a boundary edge
   bool at_boundary = false;      ///< ends with a boundary edge
-  /// Edges that bound Z: start, both sides, and the end unless it lies on the boundary.
+  /// Edges that bound Z: both sides, start and end unless these lie on the boundary.
   std::vector<EdgeKey> boundary() const;
 };
 

@@ -24,14 +24,15 @@ std::vector<UnzipSeed> unzip_seeds(const RepairState& state, const FreeZipper& z
 UnzipPartners unzip_partners(const RepairState& state, std::span<const FreeZipper> zippers);
 
 /// (S2) Unzipping: pulls the zipper node at path.seed.origin along the path. The arc of the start edge leaves the
-/// node, which stays on the other arc; both go on side by side to the boundary, or to the two arcs of the partner.
-/// The edges of both new arcs get one new pair id. When it fails (false), the mesh is refined and the field as it was.
-/// `strip`, if given, receives the surface between the arcs.
+/// node, which stays on the other arc (on the boundary, its end); both go on side by side to the boundary, or to the
+/// two arcs of the partner. The edges of both new arcs get one new pair id. When it fails (false), the mesh is refined
+/// and the field as it was. `strip`, if given, receives the surface between the arcs.
 bool unzip(RepairState& state, const UnzipPath& path, const ZipperOptions& options, Strip* strip = nullptr);
 
 /// Selects free zipper nodes, searches for all of them in parallel, and unzips them, those of the longest arcs
 /// first; a search is done again when an earlier unzip touched its path. Surfaces of this pass are not crossed.
-/// Returns the number of zipper nodes unzipped (a partner counts).
+/// Where no path is found the node stays: the next pass sees another field. Returns the number of zipper nodes unzipped
+/// (a partner counts).
 int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options = {});
 
 /// (S1) Zipping near the boundary: both arcs of a free zipper node end on the boundary one edge away, at vertices

@@ -19,29 +19,37 @@ struct SelectionOptions {
 /// A maximal chain of inner singular edges of codes +1 and -1 through vertices off the feature faces that have no
 /// other singular edge, with the flow along it.
 struct FlowChain {
-  std::vector<VertexId> vertices;    ///< first = last when closed; then it starts at a zipper node if it has one
-  std::vector<EdgeCode> codes;       ///< per edge
-  std::vector<double> flow;          ///< per vertex: sum of axis . edge along the transported label, from 0
-  std::vector<std::size_t> zippers;  ///< indices of vertices between codes of opposite sign
+  std::vector<VertexId> vertices;  ///< first = last when closed; then it starts at a zipper node if it has one
+  std::vector<EdgeCode> codes;     ///< per edge
+  std::vector<double> flow;        ///< per vertex: sum of axis . edge along the transported label, from 0
+  /// Indices of the vertices between codes of opposite sign, and of those ends (0 or the last) where the arc meets a
+  /// surface with reversed flow: zipper nodes at no distance from the surface.
+  std::vector<std::size_t> zippers;
+  std::array<bool, 2> on_surface{};  ///< does the end lie on a feature face?
   bool closed = false;
   double length = 0;
 };
 
-/// A zipper node and the two arcs that leave it side by side: edges[0] has code -1, edges[1] code +1.
+/// A zipper node and the arcs that leave it along one axis: inside two of them, edges[0] of code -1 and edges[1] of
+/// code +1; on a boundary face the only one, whose flow leads out.
 struct FreeZipper {
   VertexId node;
-  std::array<EdgeKey, 2> edges;
+  std::vector<EdgeKey> edges;
   double arc_length = 0;  ///< of its chain
 };
+
+/// A zipper node that nothing holds: an inner vertex with two singular edges, of codes +1 and -1, or a vertex of the
+/// boundary off the feature curves with one singular edge, an inner one of code +1 or -1 whose flow leads out.
+bool is_free_zipper(const RepairState& state, VertexId v);
+/// The zipper node with the edges that it has now.
+FreeZipper free_zipper_at(const RepairState& state, VertexId v);
 
 /// All chains with at least one edge, ordered by their smallest edge. Costs the singular edges.
 std::vector<FlowChain> flow_chains(const RepairState& state);
 
 /// The zipper nodes of a chain to unzip, as indices into its vertices, ascending. `mean_target` is the mean target
-/// length, `surface_zipper` says for both ends whether the arc meets a surface with reversed flow there, `on_surface`
-/// whether it ends on a feature face.
-std::vector<std::size_t> kept_zippers(const FlowChain& chain, double mean_target, std::array<bool, 2> on_surface,
-                                      std::array<bool, 2> surface_zipper, const SelectionOptions& options);
+/// length.
+std::vector<std::size_t> kept_zippers(const FlowChain& chain, double mean_target, const SelectionOptions& options);
 
 /// The free zipper nodes to unzip, those of the longest chain first, then by vertex.
 std::vector<FreeZipper> select_free_zippers(const RepairState& state, const SelectionOptions& options = {});
