@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hexfield/quantize/block_complex.hpp"
+
+namespace hexfield {
+
+/// How integers are found (spec-quantization 4 and 5).
+enum class QuantizeMethod {
+  pump,      ///< integer sheets by linear programs (Clp), separation search
+  ilp,       ///< integer program with exact secants of the squares (CBC), separation search
+  positive,  ///< every arc at least 1: always valid, no search; for pump's and ilp's failures
+};
+
+struct QuantizeOptions {
+  QuantizeMethod method = QuantizeMethod::pump;
+  double target_hexes = 10000;  ///< scales the map: s^3 times its volume
+  double time_limit = 120;      ///< seconds of one integer program
+};
+
+/// Integer lengths of the arcs of a complex.
+struct Quantization {
+  std::vector<std::int64_t> lengths;
+  QuantizeMethod method = QuantizeMethod::positive;  ///< that they come from
+  double scale = 1;                                  ///< s: wanted length of an arc is s times its length in the map
+  double objective = 0;                              ///< sum of (l - s length)^2 over the arcs
+  std::int64_t hexes = 0;
+  int rounds = 0;               ///< of separation search
+  std::size_t separations = 0;  ///< constraints it found
+  bool proven_optimal = false;  ///< ilp: for the constraints in force
+};
+
+/// Integer lengths close to the scaled real ones such that opposite sides of every patch agree, no feature or
+/// singular arc and no boundary region collapses, and no two of them that are apart coincide. Throws
+/// Error(no_integer_grid_map) when a program has no solution. Not collective, serial.
+Quantization quantize_complex(const BlockComplex& complex, const QuantizeOptions& options);
+
+/// Patches whose sides differ, links and regions that collapse, and critical entities at distance zero
+/// (spec-quantization 4.1 to 4.4).
+std::vector<Violation> check(const BlockComplex& complex, const std::vector<std::int64_t>& lengths);
+
+/// Sum of the integer volumes of the blocks (4.7).
+std::int64_t count_hexes(const BlockComplex& complex, const std::vector<std::int64_t>& lengths);
+
+}  // namespace hexfield
