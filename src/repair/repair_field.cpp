@@ -69,10 +69,10 @@ RepairResult repair_field(RepairIterate iterate, const FieldResult& input, const
   const int last = options.first_iterations + options.second_rounds * options.inner_iterations;
   while (iterate.report.iterations < last) {
     const int k = iterate.report.iterations - options.first_iterations;
-    if (k >= 0 && k % options.inner_iterations == 0) {
-      if (schedule.meshable()) break;
-      schedule.repair_zippers();
-    }
+    const bool round = k >= 0 && k % options.inner_iterations == 0;
+    if (round && schedule.meshable()) break;
+    if (k < 0 || round) schedule.repair_edges_and_vertices();
+    if (round) schedule.repair_zippers();
     schedule.relocate();
     schedule.end_iteration();
   }

@@ -7,15 +7,20 @@
 
 #include "hexfield/base/agree.hpp"
 #include "hexfield/base/error.hpp"
+#include "hexfield/base/parallel.hpp"
 #include "hexfield/field/align_field.hpp"
 #include "hexfield/field/constraints.hpp"
 #include "hexfield/field/matchings.hpp"
 #include "hexfield/field/presplit.hpp"
 #include "hexfield/field/singularity_graph.hpp"
-#include "hexfield/repair/neighbourhood.hpp"
+#include "hexfield/repair/constrained_zippers.hpp"
+#include "hexfield/repair/edge_repair.hpp"
+#include "hexfield/repair/meshability.hpp"
+#include "hexfield/repair/neighbourhood_loop.hpp"
 #include "hexfield/repair/relocation.hpp"
 #include "hexfield/repair/remesh.hpp"
 #include "hexfield/repair/state_ops.hpp"
+#include "hexfield/repair/vertex_repair.hpp"
 #include "hexfield/repair/zipper_nodes.hpp"
 
 namespace hexfield {
@@ -34,18 +39,43 @@ double volume_of(const TetMesh& mesh) {
   return sum;
 }
 
+std::vector<EdgeKey> special_edges(const RepairState& state) {
+  std::vector<EdgeKey> edges;
+  for (const auto& entry : state.codes) edges.push_back(entry.first);
+  for (const auto& entry : state.features.edges) edges.push_back(entry.first);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+std::vector<VertexId> vertices_of(const std::vector<EdgeKey>& edges) {
+  std::vector<VertexId> vertices;
+  for (const EdgeKey& e : edges) vertices.insert(vertices.end(), e.begin(), e.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+// Vertices of special edges that need repair, those with few singular edges first (spec-lmff section 5.5).
+std::vector<Place> vertices_to_repair(const RepairState& state) {
+  const std::vector<VertexId> all = vertices_of(special_edges(state));
+  std::vector<char> bad(all.size(), 0);
+  parallel_for(all.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) bad[i] = needs_repair(state, all[i]);
+  });
+  std::vector<std::pair<std::size_t, VertexId>> order;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (bad[i]) order.emplace_back(singular_edges_at(state, all[i]).size(), all[i]);
+  std::sort(order.begin(), order.end());
+  std::vector<Place> places;
+  for (const auto& entry : order) places.push_back({{entry.second}, 1});
+  return places;
+}
+
 std::vector<EdgeKey> singular_edges(const RepairState& state) {
   std::vector<EdgeKey> edges;
   for (const auto& entry : state.codes) edges.push_back(entry.first);
   return edges;
-}
-
-std::vector<VertexId> singular_vertices(const RepairState& state) {
-  std::vector<VertexId> vertices;
-  for (const auto& entry : state.codes) vertices.insert(vertices.end(), entry.first.begin(), entry.first.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
 }
 
 }  // namespace
@@ -79,6 +109,18 @@ void Schedule::isolate() {
   compact(state_);
 }
 
+void Schedule::repair_edges_and_vertices() {
+  timed("repair edges", [&] { return repair_edges(state_).total(); });
+  timed("repair vertices", [&] {
+    const std::vector<Place> places = vertices_to_repair(state_);
+    const auto commits = for_places(state_, places, [](Neighbourhood& copy, std::span<const VertexId> seeds) {
+      return repair_vertex(copy.local, seeds[0]);
+    });
+    return std::count(commits.begin(), commits.end(), 1);
+  });
+  timed("repair constrained zipper nodes", [&] { return repair_constrained_zipper_nodes(state_); });
+}
+
 void Schedule::repair_zippers() {
   timed("zip near the boundary", [&] { return zip_near_boundary(state_); });
   timed("unzip free zipper nodes", [&] { return unzip_free_zipper_nodes(state_); });
@@ -99,7 +141,7 @@ void Schedule::relocate() {
     return relocate_singularities(state_, surface_, curves_, options).vertices;
   });
   timed("smooth near arcs", [&] {
-    smooth_to_features(state_, tets_around(state_.mesh, singular_vertices(state_), relocation_rings),
+    smooth_to_features(state_, tets_around(state_.mesh, vertices_of(singular_edges(state_)), relocation_rings),
                        relocation_sweeps);
     update_codes(state_, singular_edges(state_));
     return 0;
@@ -110,6 +152,9 @@ bool Schedule::meshable() {
   bool good = false;
   timed("check", [&] {
     good = find_defects(state_.mesh, state_.features, state_.field, state_.codes).empty();
+    if (!good) return 0;
+    const std::vector<EdgeKey> edges = special_edges(state_);
+    good = check_meshability(state_, edges, vertices_of(edges)).meshable();
     return 0;
   });
   return good;

@@ -13,6 +13,8 @@ class Schedule {
   Schedule(RepairIterate& iterate, const FieldResult& input, const RepairOptions& options,
            const RepairControl& control);
 
+  /// Edges, nodes and zipper nodes on features (Stage I).
+  void repair_edges_and_vertices();
   /// Free zipper nodes (Stage II).
   void repair_zippers();
   /// The mesh near arcs gets better, arcs move to where the field wants them, and the field near them follows the features only.
