@@ -5,6 +5,7 @@
 #include <set>
 
 #include "hexfield/repair/state_ops.hpp"
+#include "rounding.hpp"
 
 namespace hexfield {
 namespace {
@@ -108,7 +109,7 @@ class SpokeSearch {
 
   void relax(const Rung& from, const Rung& to, double cost) {
     if (!admissible(to, ring_of(state_.mesh, path(to.first), to.second))) return;
-    const double total = cost + cost_of(to);
+    const double total = without_noise(cost + cost_of(to));
     const auto found = best_.find(to);
     if (found != best_.end() && found->second.cost <= total) return;
     best_[to] = {total, from};

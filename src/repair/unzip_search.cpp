@@ -6,6 +6,7 @@
 
 #include "hexfield/field/edge_codes.hpp"
 #include "hexfield/repair/state_ops.hpp"
+#include "rounding.hpp"
 
 namespace hexfield {
 namespace {
@@ -58,7 +59,7 @@ class UnzipSearch {
 
   double distance_of(const Reached& r) const {
     const double u = r.coordinates.dot(octahedral::direction(r.seed_u));
-    return std::sqrt(u * u + options_.deviation * std::max(0.0, r.coordinates.squaredNorm() - u * u));
+    return without_noise(std::sqrt(u * u + options_.deviation * std::max(0.0, r.coordinates.squaredNorm() - u * u)));
   }
 
   void push(TetId t, const Reached& r) {

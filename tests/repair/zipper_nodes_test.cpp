@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "hexfield/base/parallel.hpp"
 #include "hexfield/field/edge_codes.hpp"
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/repair/state_ops.hpp"
@@ -157,4 +158,67 @@ TEST(ZipperNodes, AZipperNodeBesideTheBoundaryIsZipped) {
   EXPECT_EQ(zip_near_boundary(state), 1);
   EXPECT_EQ(state.codes, before);
   EXPECT_EQ(sentences(check(state)), "");
+}
+
+namespace {
+
+// Another chart in every tet (spec-lmff section 0, gauge change); the field is the same.
+void change_gauge(RepairState& state) {
+  for (std::size_t i = 0; i < state.mesh.num_tets(); ++i) {
+    const TetId t(static_cast<std::int64_t>(i));
+    const auto g = static_cast<octahedral::Rotation>((7 * i + 3) % octahedral::order);
+    state.field.frames[i] = state.field.frames[i] * octahedral::quaternion(g);
+    for (int f = 0; f < 4; ++f)
+      if (const HalfFaceId h(t, f); !state.mesh.is_boundary(h))
+        set_matching(state, h, octahedral::product(octahedral::inverse(g), state.field.matching(h)));
+  }
+}
+
+}  // namespace
+
+TEST(ZipperNodes, ChartsChangeNothing) {
+  RepairState a = zipper_state({14, 6, 6}, {2, 1, 1});
+  add_loop(a, {8, 3, 3}, 1);
+  RepairState b = a;
+  change_gauge(b);
+  ASSERT_EQ(compute_codes(b.mesh, b.features, b.field), b.codes);
+  EXPECT_EQ(unzip_free_zipper_nodes(a), 4);
+  EXPECT_EQ(unzip_free_zipper_nodes(b), 4);
+  EXPECT_TRUE(a.mesh.tets == b.mesh.tets);
+  EXPECT_TRUE(a.codes == b.codes);
+  EXPECT_TRUE(a.pairs == b.pairs);
+}
+
+TEST(ZipperNodes, ThreadsChangeNothing) {
+  RepairState a = zipper_state({14, 6, 6}, {2, 1, 1});
+  add_loop(a, {8, 3, 3}, 1);
+  RepairState b = a;
+  const int before = threads();
+  set_threads(1);
+  unzip_free_zipper_nodes(a);
+  set_threads(2);
+  unzip_free_zipper_nodes(b);
+  set_threads(before);
+  EXPECT_TRUE(a.mesh.tets == b.mesh.tets);
+  EXPECT_TRUE(a.codes == b.codes);
+  for (std::size_t t = 0; t < a.field.frames.size(); ++t)
+    EXPECT_EQ(a.field.frames[t].coeffs(), b.field.frames[t].coeffs());
+}
+
+TEST(ZipperNodes, AFailedUnzipLeavesTheField) {
+  RepairState state = zipper_state();
+  const auto zippers = select_free_zippers(state);
+  const auto path = find_unzip_path(state, unzip_seeds(state, zippers[0]), {}, {}, {});
+  ASSERT_TRUE(path.has_value());
+  // All faces are blocked: no way out.
+  std::set<FaceKey> wall;
+  for (std::size_t i = 0; i < state.mesh.num_tets(); ++i)
+    for (int f = 0; f < 4; ++f) wall.insert(state.mesh.key(HalfFaceId(TetId(static_cast<std::int64_t>(i)), f)));
+  EXPECT_FALSE(find_unzip_path(state, {&path->seed, 1}, {}, wall, {}).has_value());
+  // The zipper node is gone after the first unzip: a second one along a stale path does nothing.
+  ASSERT_TRUE(unzip(state, *path, {}));
+  const RepairState once = state;
+  EXPECT_FALSE(unzip(state, *path, {}));
+  EXPECT_EQ(state.codes, once.codes);
+  EXPECT_EQ(state.mesh.tets, once.mesh.tets);
 }
