@@ -92,7 +92,9 @@ NamedArrays pack(const RepairIterate& iterate) {
   arrays.own("kept", rows_of(iterate.state.kept), 2);
   arrays.own(
       "weights",
-      std::vector<double>{iterate.compound_shrink, iterate.zipper_shrink, static_cast<double>(iterate.next_pair)}, 1);
+      std::vector<double>{iterate.compound_shrink, iterate.zipper_shrink, static_cast<double>(iterate.stale_rounds),
+                          static_cast<double>(iterate.fewest_defects)},
+      1);
   arrays.own_text("repair_report", text_of(iterate.report));
   return arrays;
 }
@@ -108,10 +110,11 @@ RepairIterate unpack_repair_iterate(const NamedArrays& arrays) {
   for (std::size_t i = 0; i + 1 < kept.size(); i += 2)
     iterate.state.kept.insert({VertexId(kept[i]), VertexId(kept[i + 1])});
   const auto weights = arrays.get<double>("weights", 1);
-  require_same(weights.size() == 3, "its weights are missing");
+  require_same(weights.size() == 4, "its weights are missing");
   iterate.compound_shrink = weights[0];
   iterate.zipper_shrink = weights[1];
-  iterate.next_pair = static_cast<int>(weights[2]);
+  iterate.stale_rounds = static_cast<int>(weights[2]);
+  iterate.fewest_defects = static_cast<int>(weights[3]);
   iterate.report = report_from(arrays.text("repair_report"));
   return iterate;
 }

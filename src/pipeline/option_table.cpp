@@ -70,6 +70,7 @@ OptionTable::OptionTable(RunOptions& o) {
       {"field.smoothing_tolerance", "field", &o.field.smoothing_tolerance, 0, 1},
       {"repair.first_iterations", "repair", &o.repair.first_iterations, 0},
       {"repair.second_rounds", "repair", &o.repair.second_rounds, 0},
+      {"repair.patience", "repair", &o.repair.patience, 1},
       {"repair.inner_iterations", "repair", &o.repair.inner_iterations, 1},
       {"repair.alignment_weight", "repair", &o.repair.alignment_weight, 0},
       {"repair.longest_first", "repair", &o.repair.longest_first},

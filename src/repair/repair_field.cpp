@@ -70,7 +70,7 @@ RepairResult repair_field(RepairIterate iterate, const FieldResult& input, const
   while (iterate.report.iterations < last) {
     const int k = iterate.report.iterations - options.first_iterations;
     const bool round = k >= 0 && k % options.inner_iterations == 0;
-    if (round && schedule.meshable()) break;
+    if (round && (schedule.meshable() || iterate.stale_rounds >= options.patience)) break;
     if (k < 0 || round) schedule.repair_edges_and_vertices();
     if (round) schedule.repair_zippers();
     schedule.relocate();

@@ -149,15 +149,27 @@ void Schedule::relocate() {
 }
 
 bool Schedule::meshable() {
-  bool good = false;
+  std::size_t defects = 0;
   timed("check", [&] {
-    good = find_defects(state_.mesh, state_.features, state_.field, state_.codes).empty();
-    if (!good) return 0;
+    defects = find_defects(state_.mesh, state_.features, state_.field, state_.codes).size();
+    if (defects > 0) return 0;
     const std::vector<EdgeKey> edges = special_edges(state_);
-    good = check_meshability(state_, edges, vertices_of(edges)).meshable();
+    const Meshability found = check_meshability(state_, edges, vertices_of(edges));
+    defects = found.bad_edges.size() + found.bad_vertices.size();
     return 0;
   });
-  return good;
+  note_progress(static_cast<int>(defects));
+  return defects == 0;
+}
+
+// Defects that stay although nothing else works shrink away the faster (spec-lmff section 5.7).
+void Schedule::note_progress(int defects) {
+  const bool fewer = iterate_.fewest_defects < 0 || defects < iterate_.fewest_defects;
+  iterate_.stale_rounds = fewer ? 0 : iterate_.stale_rounds + 1;
+  if (fewer) iterate_.fewest_defects = defects;
+  if (fewer) return;
+  iterate_.compound_shrink *= 2;
+  iterate_.zipper_shrink *= 2;
 }
 
 void Schedule::finish() {

@@ -17,9 +17,10 @@ class Schedule {
   void repair_edges_and_vertices();
   /// Free zipper nodes (Stage II).
   void repair_zippers();
-  /// The mesh near arcs gets better, arcs move to where the field wants them, and the field near them follows the features only.
+  /// The mesh near arcs gets better, arcs move to where the field wants them, and the field near them follows the
+  /// features only.
   void relocate();
-  /// True when every edge and every vertex is meshable.
+  /// True when every special edge and every vertex of one is meshable; notes whether there is progress.
   bool meshable();
   /// Codes of one sign along every arc, special edges apart, all frames aligned.
   void finish();
@@ -31,6 +32,7 @@ class Schedule {
   template <class Work>
   void timed(const std::string& kind, const Work& work);
   void isolate();
+  void note_progress(int defects);
   void align_everywhere();
 
   RepairIterate& iterate_;

@@ -14,6 +14,7 @@ namespace hexfield {
 struct RepairOptions {
   int first_iterations = 2;      ///< iterations of Stage I: edges, nodes and constrained zipper nodes
   int second_rounds = 15;        ///< rounds of Stage II: free zipper nodes
+  int patience = 3;              ///< rounds of Stage II without fewer defects that end it
   int inner_iterations = 6;      ///< relocations and remeshings per round of Stage II
   double alignment_weight = 10;  ///< of singular edges to the field, against the other energies of the relocation
   bool longest_first = true;     ///< free zipper nodes of long arcs are unzipped first
@@ -46,7 +47,8 @@ struct RepairIterate {
   RepairReport report;
   double compound_shrink = 1;  ///< weights that grow while defects of their kind stay
   double zipper_shrink = 1;
-  int next_pair = 1;
+  int stale_rounds = 0;     ///< rounds since there were fewest defects
+  int fewest_defects = -1;  ///< negative: not counted yet
 };
 
 /// Safe points of the repair. Every member may be empty.
