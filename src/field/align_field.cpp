@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 #include "align_kernel.hpp"
@@ -149,45 +150,101 @@ AlignReport align_field(const DistributedMesh& mesh, FrameField& field, std::spa
   return report;
 }
 
+namespace {
+
+// What Algorithm 1 needs of the listed tets, in their order.
+struct SubmeshSweep {
+  struct Neighbour {
+    std::int32_t tet;     // of the mesh; -1 on the boundary
+    std::int32_t listed;  // its place in the list; -1 for a boundary value
+    octahedral::Rotation from;
+  };
+  std::vector<std::array<Neighbour, 4>> neighbours;
+  std::vector<FrameConstraint> constraints;  // count 0: none
+  std::vector<char> active;                  // a frame that it depends on has turned
+
+  SubmeshSweep(const TetMesh& mesh, const FrameField& field, std::span<const AxisConstraint> axes,
+               std::span<const TetId> tets)
+      : neighbours(tets.size()), constraints(tets.size()), active(tets.size(), 1) {
+    std::unordered_map<TetId, std::int32_t> place;
+    place.reserve(tets.size());
+    for (std::size_t k = 0; k < tets.size(); ++k) place.emplace(tets[k], static_cast<std::int32_t>(k));
+    for (const auto& [tet, c] : frame_constraints(axes))
+      if (const auto found = place.find(tet); found != place.end())
+        constraints[static_cast<std::size_t>(found->second)] = c;
+    for (std::size_t k = 0; k < tets.size(); ++k)
+      for (int f = 0; f < 4; ++f) {
+        const HalfFaceId o = mesh.opposite_half_face(HalfFaceId(tets[k], f));
+        Neighbour& n = neighbours[k][static_cast<std::size_t>(f)];
+        n = {-1, -1, octahedral::identity};
+        if (!o.valid()) continue;
+        const auto found = place.find(o.tet());
+        n = {o.tet().value, found == place.end() ? -1 : found->second, field.matching(o)};
+      }
+  }
+
+  // The frames around tet k in its chart; returns how many there are.
+  std::size_t around(const FrameField& field, std::size_t k, std::array<Eigen::Vector4d, 4>& frames) const {
+    std::size_t count = 0;
+    for (const Neighbour& n : neighbours[k])
+      if (n.tet >= 0)
+        frames[count++] = (field.frames[static_cast<std::size_t>(n.tet)] * octahedral::quaternion(n.from)).coeffs();
+    return count;
+  }
+};
+
+// The new frame of tet k; nothing when the guard forbids it.
+std::optional<Quaternion> relaxed(const SubmeshSweep& sub, const FrameField& field, std::size_t k,
+                                  const Quaternion& own, const SweepLimits& limits) {
+  std::array<Eigen::Vector4d, 4> around;
+  const std::size_t count = sub.around(field, k, around);
+  Eigen::Vector4d sum = own.coeffs();
+  for (std::size_t n = 0; n < count; ++n) sum += around[n].dot(sum) < 0 ? Eigen::Vector4d(-around[n]) : around[n];
+  const double norm = sum.norm();
+  Quaternion q = norm > 1e-12 ? Quaternion(Eigen::Vector4d(sum / norm)) : own;
+  if (sub.constraints[k].count > 0) q = project_frame(q, sub.constraints[k]);
+  q = limited(own, q, limits.turn);
+  for (std::size_t n = 0; n < count; ++n) {
+    const double dot = std::abs(around[n].dot(q.coeffs()));
+    if (dot < limits.guard && dot < std::abs(around[n].dot(own.coeffs()))) return std::nullopt;
+  }
+  return q;
+}
+
+}  // namespace
+
 AlignReport align_submesh(const TetMesh& mesh, FrameField& field, std::span<const AxisConstraint> constraints,
                           std::span<const TetId> tets, const AlignOptions& options) {
-  std::unordered_map<TetId, FrameConstraint> axes;
-  for (const auto& [tet, c] : frame_constraints(constraints)) axes.emplace(tet, c);
+  SubmeshSweep sub(mesh, field, constraints, tets);
   const SweepLimits limits = limits_of(options);
   AlignReport report;
-  auto sweep = [&](TetId t) {
-    const Quaternion own = field.frames[t.index()];
-    Eigen::Vector4d sum = own.coeffs();
-    std::array<Eigen::Vector4d, 4> around;
-    std::size_t count = 0;
-    for (int f = 0; f < 4; ++f) {
-      const HalfFaceId o = mesh.opposite_half_face(HalfFaceId(t, f));
-      if (!o.valid()) continue;
-      const Eigen::Vector4d g = (field.frames[o.tet().index()] * octahedral::quaternion(field.matching(o))).coeffs();
-      sum += g.dot(sum) < 0 ? Eigen::Vector4d(-g) : g;
-      around[count++] = g;
+  auto sweep = [&](std::size_t k) {
+    const Quaternion own = field.frames[tets[k].index()];
+    const auto q = relaxed(sub, field, k, own, limits);
+    if (!q) {
+      ++report.reverted;
+      return;
     }
-    const double norm = sum.norm();
-    Quaternion q = norm > 1e-12 ? Quaternion(Eigen::Vector4d(sum / norm)) : own;
-    if (const auto c = axes.find(t); c != axes.end()) q = project_frame(q, c->second);
-    q = limited(own, q, limits.turn);
-    for (std::size_t k = 0; k < count; ++k)
-      if (std::abs(around[k].dot(q.coeffs())) < limits.guard &&
-          std::abs(around[k].dot(q.coeffs())) < std::abs(around[k].dot(own.coeffs()))) {
-        ++report.reverted;
-        return;
-      }
-    report.largest_turn = std::max(report.largest_turn, turn_between(own, q));
-    field.frames[t.index()] = q;
+    const double turn = turn_between(own, *q);
+    report.largest_turn = std::max(report.largest_turn, turn);
+    field.frames[tets[k].index()] = *q;
+    if (turn <= options.tolerance) return;
+    sub.active[k] = 1;
+    for (const auto& n : sub.neighbours[k])
+      if (n.listed >= 0) sub.active[static_cast<std::size_t>(n.listed)] = 1;
   };
   for (report.sweeps = 0; report.sweeps < options.sweeps;) {
     report.largest_turn = 0;
-    for (TetId t : tets) sweep(t);
+    for (std::size_t k = 0; k < tets.size(); ++k) {
+      if (options.tolerance > 0 && sub.active[k] == 0) continue;
+      sub.active[k] = 0;
+      sweep(k);
+    }
     ++report.sweeps;
     if (options.tolerance > 0 && report.largest_turn <= options.tolerance) break;
   }
-  for (TetId t : tets)
-    if (const auto c = axes.find(t); c != axes.end()) report.misaligned += misses(field.frames[t.index()], c->second);
+  for (std::size_t k = 0; k < tets.size(); ++k)
+    report.misaligned += misses(field.frames[tets[k].index()], sub.constraints[k]);
   return report;
 }
 

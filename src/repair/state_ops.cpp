@@ -164,6 +164,9 @@ void update_codes(RepairState& state, std::span<const EdgeKey> edges) {
 
 namespace {
 
+// Frames that turn less than this in a sweep have settled: a hundredth of what decides a code.
+constexpr double settled_turn = 1e-3;
+
 AlignReport smooth_aligned(RepairState& state, std::span<const TetId> tets, int sweeps, const EdgeCodes& codes,
                            SingularSign sign) {
   std::vector<TetId> ordered(tets.begin(), tets.end());
@@ -171,6 +174,7 @@ AlignReport smooth_aligned(RepairState& state, std::span<const TetId> tets, int 
   const auto constraints = collect_constraints_of(state.mesh, state.features, state.field, codes, ordered, sign);
   AlignOptions options;
   options.sweeps = sweeps;
+  options.tolerance = settled_turn;
   return align_submesh(state.mesh, state.field, constraints, ordered, options);
 }
 

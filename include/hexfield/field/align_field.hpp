@@ -39,7 +39,8 @@ std::vector<std::pair<TetId, FrameConstraint>> frame_constraints(std::span<const
 Quaternion project_frame(const Quaternion& q, const FrameConstraint& constraint);
 
 /// Sweeps over the tets of a list, in its order (Gauss-Seidel); frames of all other tets stay and act as
-/// boundary values. Not collective.
+/// boundary values. With a tolerance, tets are passed over while no frame that they depend on has turned more than
+/// that. Not collective.
 AlignReport align_submesh(const TetMesh& mesh, FrameField& field, std::span<const AxisConstraint> constraints,
                           std::span<const TetId> tets, const AlignOptions& options);
 
