@@ -11,7 +11,9 @@ namespace hexfield {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr std::size_t grain = 256;  // elements per piece of a parallel loop
+constexpr std::size_t grain = 256;   // elements per piece of a parallel loop
+constexpr double most_loss = 1.5;    // of a shape in one step
+constexpr int max_shortenings = 30;  // halvings of the step of a point
 
 }  // namespace
 
@@ -79,14 +81,18 @@ double RelocationEnergy::element_value(std::size_t e, const Eigen::VectorXd& y) 
     for (int k = 0; k < q.count; ++k) r += q.coefficients[at(k)] * position(q.points[at(k)], y);
     return q.weight * (q.metric * r).squaredNorm();
   }
+  const std::size_t k = e - quadratics_.size();
+  return (k < tets_.size() ? tets_[k].weight : triangles_[k - tets_.size()].weight) * shape_of(e, y);
+}
+
+double RelocationEnergy::shape_of(std::size_t e, const Eigen::VectorXd& y) const {
   e -= quadratics_.size();
   if (e < tets_.size()) {
     const auto& c = tets_[e].corners;
-    return tets_[e].weight * tet_shape({position(c[0], y), position(c[1], y), position(c[2], y), position(c[3], y)});
+    return tet_shape({position(c[0], y), position(c[1], y), position(c[2], y), position(c[3], y)});
   }
   const Triangle& t = triangles_[e - tets_.size()];
-  return t.weight *
-         triangle_shape({position(t.corners[0], y), position(t.corners[1], y), position(t.corners[2], y)}, t.normal);
+  return triangle_shape({position(t.corners[0], y), position(t.corners[1], y), position(t.corners[2], y)}, t.normal);
 }
 
 double RelocationEnergy::value(const Eigen::VectorXd& y) const {
@@ -95,6 +101,31 @@ double RelocationEnergy::value(const Eigen::VectorXd& y) const {
     for (std::size_t e = begin; e < end; ++e) sum += element_value(e, y);
     return sum;
   });
+}
+
+void RelocationEnergy::shorten(const Eigen::VectorXd& y, Eigen::VectorXd& step) const {
+  const std::size_t first = quadratics_.size(), n = num_elements() - first;
+  std::vector<double> limit(n);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) limit[k] = shape_of(first + k, y) + most_loss;
+  });
+  std::vector<char> bad(n), shorter(points_.size());
+  for (int round = 0; round < max_shortenings; ++round) {
+    const Eigen::VectorXd there = y + step;
+    parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) bad[k] = !(shape_of(first + k, there) <= limit[k]);
+    });
+    std::fill(shorter.begin(), shorter.end(), 0);
+    bool any = false;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (bad[k] == 0) continue;
+      any = true;
+      for (int c : corners(first + k)) shorter[at(c)] = 1;
+    }
+    if (!any) return;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (shorter[i] != 0) step.segment(first_[i], dimensions(static_cast<int>(i))) /= 2;
+  }
 }
 
 void RelocationEnergy::element_derivatives(std::size_t e, const Eigen::VectorXd& y, Contribution& out) const {

@@ -8,7 +8,25 @@ namespace {
 
 constexpr double shift = 1e-8;  // of the mean diagonal: elements leave directions without curvature
 constexpr double armijo = 1e-4;
+constexpr int few_halvings = 3;  // for the step that was shortened point by point, before the whole one is tried
 constexpr int max_halvings = 40;
+
+// Goes along a direction of descent; false when no length lowers the energy enough.
+bool search(const RelocationEnergy& energy, const Eigen::VectorXd& gradient, const Eigen::VectorXd& step, int halvings,
+            Eigen::VectorXd& y, double& value) {
+  const double slope = gradient.dot(step);
+  if (!(slope < 0)) return false;
+  double length = 1;
+  for (int k = 0; k <= halvings; ++k, length /= 2) {
+    const Eigen::VectorXd there = y + length * step;
+    const double after = energy.value(there);
+    if (!(after <= value + armijo * length * slope)) continue;
+    y = there;
+    value = after;
+    return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -19,28 +37,28 @@ NewtonDescent descend(const RelocationEnergy& energy, Eigen::VectorXd& y, int ma
   Eigen::VectorXd gradient;
   Eigen::SparseMatrix<double> hessian;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-  for (report.iterations = 0; report.iterations < max_iterations; ++report.iterations) {
+  while (report.iterations < max_iterations) {
     const double before = energy.derivatives(y, gradient, hessian);
     solver.setShift(shift * hessian.diagonal().mean());
     if (report.iterations == 0) solver.analyzePattern(hessian);
     solver.factorize(hessian);
     if (solver.info() != Eigen::Success) break;
     const Eigen::VectorXd step = -solver.solve(gradient);
-    const double slope = gradient.dot(step);
-    if (!(slope < 0)) break;
-    double length = 1;
-    double after = energy.value(y + step);
-    for (int k = 0; k < max_halvings && !(after <= before + armijo * length * slope); ++k) {
-      length /= 2;
-      after = energy.value(y + length * step);
+    Eigen::VectorXd shortened = step;
+    energy.shorten(y, shortened);
+    report.end = before;
+    const Eigen::VectorXd start = y;
+    const auto gained = [&] { return before - report.end >= tolerance * std::abs(before); };
+    search(energy, gradient, shortened, few_halvings, y, report.end);
+    if (!gained()) {
+      Eigen::VectorXd other = start;
+      double value = before;
+      if (search(energy, gradient, step, max_halvings, other, value) && value < report.end)
+        y = other, report.end = value;
     }
-    if (!(after < before)) break;
-    y += length * step;
-    report.end = after;
-    if (before - after < tolerance * std::abs(before)) {
-      ++report.iterations;
-      break;
-    }
+    if (report.end == before) break;
+    ++report.iterations;
+    if (!gained()) break;
   }
   return report;
 }

@@ -93,14 +93,16 @@ class Collapse {
     return singular_edges_at(state_, to_).size() <= 2;
   }
 
-  // No new edge inside between vertices of feature faces or of feature edges.
+  // No new edge inside between vertices of feature faces or of feature edges, and no arc that sinks into one.
   bool new_edges_allow() const {
     const bool face = marks_.on_face[to_.index()] && !marks_.on_face[from_.index()];
     const bool curve = marks_.on_curve[to_.index()] && !marks_.on_curve[from_.index()];
     if (!face && !curve) return true;
     const auto known = neighbours(vertex_star(state_.mesh, to_), to_);
     return std::none_of(neighbours_.begin(), neighbours_.end(), [&](VertexId x) {
-      if (x == to_ || std::binary_search(known.begin(), known.end(), x)) return false;
+      if (x == to_) return false;
+      const bool fresh = !std::binary_search(known.begin(), known.end(), x);
+      if (!fresh && !state_.codes.contains(edge_key(from_, x))) return false;
       return (face && marks_.on_face[x.index()]) || (curve && marks_.on_curve[x.index()]);
     });
   }

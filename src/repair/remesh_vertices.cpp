@@ -15,6 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double worst_term = 1e5;    // of the sum that a vertex lowers
 constexpr double good_enough = 4;     // tr / det^{2/3} (3 at its best): vertices with better tets only stay
+constexpr double bad_for_arcs = 12;   // the same for vertices of arcs, which lie where the field wants them
 constexpr double least_cosine = 0.9;  // between normals of a feature face before and after a move
 constexpr int newton_steps = 3;
 constexpr int halvings = 6;
@@ -72,7 +73,7 @@ class VertexOptimiser {
     for (const auto& [v, colour] : state.features.points) places_[v.index()].kind = Place::fixed;
     for (const auto& [e, code] : state.codes)
       if (!state.features.edges.contains(e))
-        for (VertexId v : e) places_[v.index()].kind = Place::fixed;
+        for (VertexId v : e) places_[v.index()].singular = true;
   }
 
   int sweep() {
@@ -88,6 +89,7 @@ class VertexOptimiser {
   struct Place {
     enum Kind { inside, surface, curve, fixed } kind = inside;
     int colour = 0;
+    bool singular = false;
   };
 
   std::array<Vec3, 4> corners(TetId t) const {
@@ -180,7 +182,7 @@ class VertexOptimiser {
     if (place.kind != Place::inside) moved |= back_to_feature(v, place);
     for (int step = 0; step < newton_steps; ++step) {
       const double most = worst(v);
-      if (most < good_enough) break;
+      if (most < (place.singular ? bad_for_arcs : good_enough)) break;
       const double w = std::log(worst_term) / (most - 3);
       const auto b = basis(place, p);
       if (b.cols() == 0) break;

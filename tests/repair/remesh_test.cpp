@@ -95,6 +95,10 @@ TEST(Remesh, EditsKeepVolumeFeaturesAndCodes) {
     EXPECT_EQ(euler_characteristic(state.features), euler);
     EXPECT_NEAR(curve_length(state), curves, 1e-9);
     EXPECT_EQ(state.codes, compute_codes(state.mesh, state.features, state.field));
+    int kept = 0;
+    for (const auto& [e, code] : before)
+      if (find_tet_with_edge(state.mesh, e[0], e[1]).valid()) kept += code_of(state, e) == code ? 1 : -1000;
+    EXPECT_GT(kept, 20);
   }
   EXPECT_GT(total.splits, 20);
   EXPECT_GT(total.collapses, 20);

@@ -65,9 +65,10 @@ PostRemeshReport post_remesh(RepairState& state, const ClosestSurface& original_
                              const ClosestCurve& original_curves, const PostRemeshOptions& options = {});
 
 /// Moves vertices, each in its star, to lower sum exp(w (tr / det^{2/3} - 3)) over its tets, w such that the worst term
-/// is 1e5: in space; on the surface or curve of the input for vertices of features; not at feature points and at
-/// vertices of singular edges. Vertices of one colour of a greedy colouring move at the same time: the same bytes for
-/// any number of threads. Returns the number of moves. Not collective.
+/// is 1e5: in space; on the surface or curve of the input for vertices of features. Feature points stay, and vertices
+/// of singular edges unless a tet there is worse than 12 in tr / det^{2/3}. Vertices of one colour of a greedy
+/// colouring move at the same time: the same bytes for any number of threads. Returns the number of moves. Not
+/// collective.
 int optimise_vertices(RepairState& state, const ClosestSurface& original_surface, const ClosestCurve& original_curves,
                       int sweeps);
 
