@@ -17,6 +17,15 @@ namespace hexfield {
 namespace {
 
 constexpr int untangling_rounds = 30;
+/// Rounds for a map that is nearly valid, while better starts are still to come.
+constexpr int quick_rounds = 8;
+/// Share of inverted tets up to which untangling is tried at once: it then costs less than one stage of the
+/// integrable frames.
+constexpr double nearly_valid = 0.01;
+/// The frames are given up when this many stages in a row end without a better conforming map ...
+constexpr int max_idle_stages = 3;
+/// ... which has at most this share of the defects of the best one before.
+constexpr double progress_factor = 0.9;
 
 /// A map of the conforming space and what verify_map() says of it.
 struct Candidate {
@@ -28,6 +37,10 @@ struct Candidate {
            std::pair(other.report.inverted.size(), other.report.wrong_edges.size());
   }
 };
+
+double defects(const MapReport& report) {
+  return static_cast<double>(report.inverted.size() + report.wrong_edges.size());
+}
 
 class Stage {
  public:
@@ -50,7 +63,7 @@ class Stage {
     edge_ = std::cbrt(problem.total_volume() / options_.target_hexes);
     Candidate best;
     if (!restore(problem, best)) {
-      best = judged(fit(problem, field_frames()));
+      best = fitted(problem, field_frames());
       if (!best.report.valid()) try_integrable_frames(problem, best);
       if (!best.report.valid())
         keep_better(best, judged(untangle(problem, best.unknowns, {}, edge_, untangling_rounds, monitor_)));
@@ -85,9 +98,21 @@ class Stage {
     if (other.better_than(best)) best = std::move(other);
   }
 
-  // Conforming fits to the frames after each stage of their optimisation, until one is valid.
+  // The conforming fit to frames, untangled where only few tets are inverted.
+  Candidate fitted(const MapProblem& problem, const std::vector<Mat3>& frames) {
+    Candidate result = judged(fit(problem, frames));
+    const auto tets = static_cast<double>(problem.distributed().num_global_tets());
+    const auto inverted = static_cast<double>(result.report.inverted.size());
+    if (inverted > 0 && inverted <= nearly_valid * tets)
+      keep_better(result, judged(untangle(problem, result.unknowns, {}, edge_, quick_rounds, monitor_)));
+    return result;
+  }
+
+  // Conforming fits to the frames after each stage of their optimisation, until one is valid or they get no better:
+  // where no integrable frames exist, the later, stiffer stages only cost.
   void try_integrable_frames(const MapProblem& problem, Candidate& best) {
     const IntegrableOptions options;
+    int idle = 0;
     try {
       IntegrableFrames frames(comm_, mesh_, field_, constraints_, space_, options);
       optimise_integrable_frames(frames, comm_, options, control_,
@@ -95,8 +120,10 @@ class Stage {
                                    monitor_.note({fmt::format("integrable frames {:.0e} {:.0e}",
                                                               report.stage.smoothness, report.stage.integrability),
                                                   report.newton_steps, report.linear_iterations, report.seconds});
-                                   keep_better(best, judged(fit(problem, inverse_frames(now.gather()))));
-                                   return best.report.valid();
+                                   const double before = defects(best.report);
+                                   keep_better(best, fitted(problem, inverse_frames(now.gather())));
+                                   idle = defects(best.report) <= progress_factor * before ? 0 : idle + 1;
+                                   return best.report.valid() || idle >= max_idle_stages;
                                  });
     } catch (const Error& error) {
       // Frames that cannot be aligned at all leave the direct fit, which is then judged as it is.

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collective.hpp"
 #include "untangle_energy.hpp"
 
 namespace hexfield {
+namespace {
+
+constexpr int max_idle_rounds = 3;
+
+}  // namespace
 
 double smallest_determinant(const TetMesh& mesh, const ConformingSpace& space, std::span<const double> y, double edge) {
   const CornerMap map = to_corner_map(space, coordinates(space, y));
@@ -31,10 +37,15 @@ std::vector<double> untangle(const MapProblem& problem, const std::vector<double
   options.max_iterations = 10;
   options.decrease_tolerance = 1e-3;
   std::vector<double> unknowns = start;
+  double before = -std::numeric_limits<double>::infinity();
+  int idle = 0;
   for (int round = 0; round < max_rounds; ++round) {
     double smallest = rank_of(comm) == 0 ? smallest_determinant(problem.mesh(), problem.space(), unknowns, edge) : 0;
     broadcast(comm, smallest);
     if (smallest > 0) break;
+    idle = smallest > 0.7 * before ? 0 : idle + 1;
+    if (idle == max_idle_rounds) break;
+    before = smallest;
     energy.set_epsilon(std::sqrt(1e-8 + 0.04 * smallest * smallest));
     monitor.minimise(comm, terms, y.get(), options, "untangling", {});
     unknowns = problem.gather(y.get(), fixed);

@@ -22,11 +22,11 @@ struct IntegrableStage {
 /// Parameters of the integrable-frame optimisation. Schedule: spec-lmff section 8; the rest is ours.
 struct IntegrableOptions {
   std::vector<IntegrableStage> schedule = {{1e4, 1e4}, {1e3, 1e5}, {1e2, 1e6}, {1e1, 1e7}, {0, 1e8}, {0, 1e9}};
-  int max_newton_steps = 100;        ///< per stage
+  int max_newton_steps = 30;         ///< per stage
   double decrease_tolerance = 1e-3;  ///< a stage ends when a Newton step promises less than this part of the energy
   double last_decrease_tolerance = 1e-6;  ///< the same for the last stage of the schedule
   double linear_tolerance = 1e-1;         ///< forcing term: relative residual in the norm of the preconditioner
-  int max_linear_iterations = 300;        ///< per Newton step
+  int max_linear_iterations = 100;        ///< per Newton step
   int aggregate_size = 20;                ///< tets per aggregate of the coarse space for fields that are not gradients
   bool refresh_scale = true;              ///< measure distortion against the volumes of the last stage's frames
   int cholesky_limit = 150000;            ///< coarse spaces with more unknowns use multigrid
