@@ -16,6 +16,7 @@ void add_run(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_convert(CLI::App& app, Action& action);
+void add_decompose(CLI::App& app, Action& action);
 
 /// Version of the program and of its libraries, for --version.
 std::string version_text();

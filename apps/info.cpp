@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "hex_graph.hpp"
 #include "hexfield/io/checkpoint.hpp"
 #include "read_any.hpp"
 
@@ -58,6 +59,7 @@ void print_info(const HexMesh& mesh) {
   print_colours("lines", mesh.feature_lines);
   print_colours("quads", mesh.feature_quads);
   print_names(mesh.names);
+  print_graph(hex_singular_graph(mesh, build_hex_complex(mesh)));
 }
 
 void print_info(const Checkpoint& checkpoint) {

@@ -54,6 +54,7 @@ ExitCode serve(int argc, char** argv, bool speaks) {
   add_check(app, action);
   add_info(app, action);
   add_convert(app, action);
+  add_decompose(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

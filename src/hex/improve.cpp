@@ -38,9 +38,8 @@ std::array<std::array<CornerUse, 4>, 8> corner_uses() {
 
 class Improver {
  public:
-  Improver(HexMesh& hexes, const TetMesh& mesh, const Features& features, const ImproveOptions& options,
-           const Control& control)
-      : hexes_(hexes), options_(options), control_(control), places_(hexes, mesh, features), uses_(corner_uses()) {
+  Improver(HexMesh& hexes, hex::VertexPlaces places, const ImproveOptions& options, const Control& control)
+      : hexes_(hexes), options_(options), control_(control), places_(std::move(places)), uses_(corner_uses()) {
     link_vertices();
     colour_vertices();
     quality_.resize(hexes.hexes.size());
@@ -302,7 +301,11 @@ void Improver::raise_minimum() {
 
 void improve_hex_mesh(HexMesh& hexes, const TetMesh& mesh, const Features& features, const ImproveOptions& options,
                       const Control& control) {
-  Improver(hexes, mesh, features, options, control).run();
+  Improver(hexes, hex::VertexPlaces(hexes, mesh, features), options, control).run();
+}
+
+void improve_free_hex_mesh(HexMesh& hexes, const ImproveOptions& options, const Control& control) {
+  Improver(hexes, hex::VertexPlaces(hexes.points.size()), options, control).run();
 }
 
 }  // namespace hexfield

@@ -33,6 +33,13 @@ VertexPlaces::VertexPlaces(const HexMesh& hexes, const TetMesh& mesh, const Feat
   diagonal_ = box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
+VertexPlaces::VertexPlaces(std::size_t vertices)
+    : kinds_(vertices, Kind::free),
+      colours_(vertices, plain_boundary),
+      first_chord_(vertices + 1, 0),
+      surfaces_(TetMesh{}, Features{}),
+      curves_(TetMesh{}, Features{}) {}
+
 void VertexPlaces::link_chords(const HexMesh& hexes) {
   first_chord_.assign(hexes.points.size() + 1, 0);
   for (const Chord& chord : chords_)

@@ -15,6 +15,9 @@ class VertexPlaces {
   /// Boundary faces of the tet mesh without a feature colour are one more surface, of colour `plain_boundary`.
   VertexPlaces(const HexMesh& hexes, const TetMesh& mesh, const Features& features);
 
+  /// Every vertex may go anywhere.
+  explicit VertexPlaces(std::size_t vertices);
+
   Kind kind(std::size_t v) const { return kinds_[v]; }
   /// The nearest allowed place to p.
   Vec3 project(std::size_t v, const Vec3& p) const;

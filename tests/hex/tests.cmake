@@ -11,3 +11,6 @@ if(HEXFIELD_BENCHMARKS)
   target_include_directories(bench_hex PRIVATE ${CMAKE_CURRENT_LIST_DIR}/..)
   target_link_libraries(bench_hex PRIVATE hexfield::hex benchmark::benchmark)
 endif()
+# Writes the table of cuts that module hex carries.
+add_executable(make_cut_table ${CMAKE_CURRENT_LIST_DIR}/make_cut_table.cpp)
+target_link_libraries(make_cut_table PRIVATE hexfield::hex)

@@ -27,4 +27,21 @@ struct ImproveOptions {
 void improve_hex_mesh(HexMesh& hexes, const TetMesh& mesh, const Features& features, const ImproveOptions& options,
                       const Control& control);
 
+/// The same with no surface to keep: every vertex may go anywhere. Used for local meshes of singular nodes.
+void improve_free_hex_mesh(HexMesh& hexes, const ImproveOptions& options, const Control& control);
+
+/// Parameters of maximise_minimum().
+struct MaximiseOptions {
+  double first_sharpness = 16;   ///< of the smooth minimum, per unit of scaled Jacobian
+  double last_sharpness = 4096;  ///< doubled until here; the smooth minimum is then within log(corners) / 4096
+  int steps = 40;                ///< at most, per sharpness
+  double gain = 1e-5;            ///< steps that raise the smooth minimum by less end a sharpness
+  bool free_boundary = true;     ///< false: boundary vertices and those of features stay where they are
+};
+/// Maximises the smallest corner scaled Jacobian over all movable vertices at once (spec-sheets section 8): minimises
+/// (1/p) log sum exp(-p SJ) for growing p by Gauss-Newton steps (the corners linear, the outer function exact) with
+/// damping, each solved by conjugate gradients. All hexes must be positive; the minimum never falls. Serial, the
+/// same bytes everywhere. Throws Error(stopped) between steps.
+void maximise_minimum(HexMesh& hexes, const MaximiseOptions& options, const Control& control);
+
 }  // namespace hexfield

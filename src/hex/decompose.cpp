@@ -1,0 +1,139 @@
+#include "hexfield/hex/decompose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "hexfield/hex/sheet.hpp"
+#include "sheet_state.hpp"
+
+namespace hexfield {
+namespace {
+
+constexpr int most_side_steps = 2;
+
+/// A sheet of one of the states that are followed.
+struct Move {
+  std::size_t state;
+  int measure;
+  hex::SheetCandidate sheet;
+};
+
+class Decomposer {
+ public:
+  Decomposer(const HexMesh& mesh, const DecomposeOptions& options, const Control& control)
+      : mesh_(mesh), options_(options), control_(control), measure_(options.final_valence) {
+    width_ = options.width > 0 ? static_cast<std::size_t>(options.width)
+                               : std::clamp<std::size_t>(8000 / std::max<std::size_t>(mesh.hexes.size(), 1), 1, 24);
+    if (options.search == DecomposeOptions::Search::greedy) width_ = 1;
+  }
+
+  Decomposition run() {
+    std::vector<hex::SheetState> beam;
+    beam.emplace_back(mesh_, std::vector<DecomposeStep>{}, measure_);
+    Decomposition out;
+    out.measure_before = beam[0].measure();
+    best_steps_ = {};
+    best_measure_ = beam[0].measure();
+    seen_.insert(beam[0].hash());
+    int side_steps = 0;
+    while (!beam.empty() && best_measure_ > 0 && steps_ < options_.budget) {
+      tell(beam);
+      std::vector<hex::SheetState> next = advance(beam, -1);
+      if (next.empty() && side_steps < most_side_steps && options_.search == DecomposeOptions::Search::exact) {
+        next = advance(beam, 0);
+        ++side_steps;
+      } else {
+        side_steps = 0;
+      }
+      take_best(next);
+      beam = std::move(next);
+    }
+    out.steps = best_steps_;
+    out.measure = best_measure_;
+    out.proven = best_measure_ > 0 && complete_ && steps_ < options_.budget;
+    return out;
+  }
+
+ private:
+  /// The states that the best sheets lead to; only sheets that change the measure by at most `most`.
+  std::vector<hex::SheetState> advance(const std::vector<hex::SheetState>& beam, int most) {
+    std::vector<Move> moves;
+    for (std::size_t k = 0; k < beam.size(); ++k) {
+      const int targets = width_ > 1 ? 2 : 4;
+      auto found = beam[k].sheets(options_, most, targets, 6 * width_, measure_);
+      complete_ = complete_ && found.complete;
+      steps_ += found.steps;
+      for (auto& sheet : found.sheets) moves.push_back({k, beam[k].measure() + sheet.change, std::move(sheet)});
+      if (steps_ >= options_.budget) break;
+    }
+    std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) {
+      return a.measure != b.measure ? a.measure < b.measure : a.sheet.quads.size() < b.sheet.quads.size();
+    });
+    std::vector<hex::SheetState> next;
+    for (const Move& move : moves) {
+      if (next.size() >= width_) break;
+      const hex::SheetState& from = beam[move.state];
+      try {
+        Inflation inflated = inflate_sheet(from.mesh(), from.complex(), move.sheet.quads);
+        auto steps = from.steps();
+        steps.push_back({move.sheet.quads, move.measure});
+        hex::SheetState state(std::move(inflated.mesh), std::move(steps), measure_);
+        if (seen_.insert(state.hash()).second) next.push_back(std::move(state));
+      } catch (const Error& error) {
+        if (error.code() != ExitCode::bad_input) throw;  // no sheet after all: one-sided, or features in its way
+      }
+    }
+    return next;
+  }
+
+  /// Of the states with the least measure so far the one with the fewest curves.
+  void take_best(const std::vector<hex::SheetState>& states) {
+    std::size_t fewest = 0;
+    int least = best_measure_;
+    for (const auto& state : states) {
+      if (state.measure() > least || state.measure() == best_measure_) continue;
+      const std::size_t curves = hex_singular_graph(state.mesh(), state.complex()).curves.size();
+      if (state.measure() == least && curves >= fewest) continue;
+      least = state.measure();
+      fewest = curves;
+      best_steps_ = state.steps();
+    }
+    best_measure_ = least;
+  }
+
+  void tell(const std::vector<hex::SheetState>& beam) const {
+    if (control_.stop_requested && control_.stop_requested())
+      throw Error(ExitCode::stopped, "Stopped while singular nodes were being decomposed.");
+    if (control_.progress)
+      control_.progress(fmt::format("sheet {}, measure {}", beam[0].steps().size() + 1, best_measure_), -1);
+  }
+
+  const HexMesh& mesh_;
+  const DecomposeOptions& options_;
+  const Control& control_;
+  hex::NodeMeasure measure_;
+  std::size_t width_ = 1;
+  std::set<std::uint64_t> seen_;
+  std::vector<DecomposeStep> best_steps_;
+  int best_measure_ = 0;
+  std::int64_t steps_ = 0;
+  bool complete_ = true;
+};
+
+}  // namespace
+
+Decomposition decompose(const HexMesh& mesh, const DecomposeOptions& options,
+                        const std::function<void(HexMesh&)>& settle, const Control& control) {
+  Decomposition out = Decomposer(mesh, options, control).run();
+  out.mesh = mesh;
+  for (const DecomposeStep& step : out.steps) {
+    out.mesh = inflate_sheet(out.mesh, build_hex_complex(out.mesh), step.quads).mesh;
+    if (settle) settle(out.mesh);
+  }
+  out.nodes_left = hex_singular_graph(out.mesh, build_hex_complex(out.mesh)).nodes;
+  return out;
+}
+
+}  // namespace hexfield

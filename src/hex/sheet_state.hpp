@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hexfield/hex/decompose.hpp"
+#include "sheet_search.hpp"
+
+namespace hexfield::hex {
+
+/// A mesh on the way, with what the search for its sheets needs.
+class SheetState {
+ public:
+  SheetState(HexMesh mesh, std::vector<DecomposeStep> steps, NodeMeasure& measure);
+
+  const HexMesh& mesh() const { return mesh_; }
+  const HexComplex& complex() const { return complex_; }
+  const std::vector<DecomposeStep>& steps() const { return steps_; }
+  int measure() const { return total_; }
+  /// Equal for isomorphic meshes.
+  std::uint64_t hash() const;
+
+  struct Found {
+    std::vector<SheetCandidate> sheets;  ///< best first, each once
+    bool complete = true;                ///< no limit was hit
+    std::int64_t steps = 0;
+  };
+  /// Sheets through vertices of positive measure that change the sum by at most `most`, from the first `targets`
+  /// vertices that have any.
+  Found sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep, NodeMeasure& measure) const;
+
+ private:
+  struct Seed {
+    int measure_after;
+    std::vector<int> cycle;
+  };
+  std::vector<Seed> seeds_at(int v, int max_valence, int most, NodeMeasure& measure) const;
+  /// Regular edges at which a sheet with this cycle at v has to bend: from v straight on to the boundary or the
+  /// next singular vertex. Ascending.
+  std::vector<int> bends_of(int v, const std::vector<int>& cycle) const;
+  std::vector<int> quads_of(int v, const std::vector<int>& cycle) const;
+
+  HexMesh mesh_;
+  std::vector<DecomposeStep> steps_;
+  HexComplex complex_;
+  std::vector<VertexSphere> spheres_;  ///< at interior singular vertices
+  std::vector<int> measures_;
+  int total_ = 0;
+  int max_valence_ = 0;
+};
+
+}  // namespace hexfield::hex
