@@ -34,7 +34,7 @@ struct SeamlessResult {
   MapReport report;  ///< same on all ranks
   int newton_steps = 0;
   int linear_iterations = 0;
-  std::vector<SolveRecord> solves;  ///< not kept in checkpoints
+  std::vector<SolveRecord> solves{};  ///< not kept in checkpoints
 };
 
 /// Stage 4: locally injective seamless map that is the identity transition off a cut, matches the field's
@@ -59,7 +59,7 @@ struct IgmResult {
   std::vector<Vec3> where;
   int newton_steps = 0;
   int linear_iterations = 0;
-  std::vector<SolveRecord> solves;  ///< not kept in checkpoints
+  std::vector<SolveRecord> solves{};  ///< not kept in checkpoints
 };
 
 /// Stages 5 (greedy rounding) and 6: integer-grid map from a valid seamless map; exact after sanitising:

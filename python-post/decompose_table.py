@@ -1,0 +1,171 @@
+#!/usr/bin/python3
+"""Smallest scaled Jacobian of singular nodes before and after their decomposition, as a Markdown table.
+
+    decompose_table.py HEXFIELD DIRECTORY
+
+Makes hex meshes in DIRECTORY (one hex per triangle around each of the eight nodes with valences 3, 4 and 5; a padded
+cube, tetrahedron and prism, a sphere and an ellipsoid), runs HEXFIELD decompose on each with a free boundary, once
+without sheets and once with, and prints what the program says beside the figures of the paper.
+"""
+
+import argparse
+import re
+import subprocess
+from pathlib import Path
+
+import numpy as np
+
+# Triangles around each node, counter-clockwise seen from outside.
+NODES = {
+    "(4,0,0)": "123 134 142 243",
+    "(2,2,2)": "126 165 153 134 142 243 235 256",
+    "(0,4,4)": "126 168 187 174 142 243 235 256 347 378 385 586",
+    "(1,3,3)": "126 167 173 134 142 243 235 256 375 576",
+    "(0,3,6)": "127 178 183 134 142 249 296 267 385 359 394 586 569 687",
+    "(0,2,8)": "128 185 153 134 142 24a 2a7 278 359 394 49a 586 569 687 67a 6a9",
+    "(2,0,6)": "126 165 158 184 142 243 235 256 347 378 385 487",
+    "(0,0,12)": "128 18a 1a3 134 142 24c 2c7 278 3a5 35b 3b4 4bc 5a9 596 56b 697 67c 6cb 798 89a",
+}
+PAPER = {
+    "(4,0,0)": (0.769, 0.86), "(2,2,2)": (0.807, 0.862), "(0,4,4)": (0.896, 0.943), "(1,3,3)": (0.822, 0.865),
+    "(0,3,6)": (0.863, 0.939), "(0,2,8)": (0.82, 0.937), "(2,0,6)": (0.745, 0.856), "(0,0,12)": (0.761, 0.926),
+    "sphere": (0.768, 0.849), "padded tetrahedron": (0.715, 0.812), "ellipsoid": (0.767, 0.825),
+}  # fmt: skip
+
+
+def spread(triangles, count):
+    """Unit vectors (count, 3) for the vertices of a sphere triangulation, no triangle too thin.
+
+    Barycentric around the first triangle, lifted to the sphere; then each vertex climbs to a larger smallest
+    determinant of its triangles.
+    """
+    places = np.zeros((count, 3))
+    angles = -2 * np.pi * np.arange(3) / 3
+    places[triangles[0]] = 4 * np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
+    around = [sorted({int(w) for t in triangles if v in t for w in t} - {v}) for v in range(count)]
+    for _ in range(500):
+        for v in set(range(count)) - set(triangles[0].tolist()):
+            places[v] = places[around[v]].mean(axis=0)
+    square = (places**2).sum(axis=1, keepdims=True)
+    places = np.concatenate([2 * places[:, :2], 1 - square], axis=1) / (1 + square)
+    fans = [np.array([t for t in triangles if v in t]) for v in range(count)]
+    step = 0.2
+    while step > 1e-3:
+        for v in range(count):
+            for direction in np.concatenate([np.eye(3), -np.eye(3)]):
+                old = places[v].copy()
+                before = np.linalg.det(places[fans[v]]).min()
+                places[v] = (old + step * direction) / np.linalg.norm(old + step * direction)
+                if np.linalg.det(places[fans[v]]).min() <= before:
+                    places[v] = old
+        step *= 0.93
+    return places
+
+
+def cone(words):
+    """points, hexes: a parallelepiped per triangle around vertex 0."""
+    triangles = np.array([[int(c, 16) - 1 for c in word] for word in words.split()])
+    count = triangles.max() + 1
+    unit = spread(triangles, count)
+    points, index, hexes = [np.zeros(3), *unit], {}, []
+
+    def point(*corners):
+        key = tuple(sorted(corners))
+        if key not in index:
+            index[key] = len(points)
+            points.append(unit[list(key)].sum(axis=0))
+        return index[key]
+
+    for a, b, c in triangles:
+        hexes.append([0, a + 1, point(a, b), b + 1, c + 1, point(c, a), point(a, b, c), point(b, c)])
+    return np.array(points), np.array(hexes)
+
+
+def refine(points, hexes):
+    """Every hex into eight."""
+    points, index, out = list(points), {}, []
+
+    def middle(corners):
+        key = tuple(sorted({int(v) for v in corners}))
+        if len(key) == 1:
+            return key[0]
+        if key not in index:
+            index[key] = len(points)
+            points.append(np.mean([points[v] for v in key], axis=0))
+        return index[key]
+
+    bits = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    for cell in hexes:
+        at = dict(zip(bits, cell))
+        for corner in bits:
+            fine = []
+            for step in bits:
+                # Halfway positions 0, 1, 2 along each axis of this child's corner.
+                place = [c + s for c, s in zip(corner, step)]
+                choices = [(0,) if p == 0 else (1,) if p == 2 else (0, 1) for p in place]
+                fine.append(middle(at[(x, y, z)] for x in choices[0] for y in choices[1] for z in choices[2]))
+            out.append(fine)
+    return np.array(points), np.array(out)
+
+
+def grid(n):
+    """n^3 cubes in [-1, 1]^3."""
+    side = n + 1
+    points = np.array([[x, y, z] for z in range(side) for y in range(side) for x in range(side)]) * 2 / n - 1
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    hexes = [
+        [x + i + side * (y + j + side * (z + k)) for i, j, k in corners]
+        for z in range(n) for y in range(n) for x in range(n)
+    ]  # fmt: skip
+    return points, np.array(hexes)
+
+
+def write(path, points, hexes):
+    import meshio
+
+    meshio.write(path, meshio.Mesh(points, [("hexahedron", hexes)]), file_format="vtk42", binary=True)
+
+
+def meshes():
+    """(name, points, hexes, layers to pad) of every row."""
+    for name, words in NODES.items():
+        yield name, *cone(words), 0
+    cube = grid(4)
+    yield "padded cube", *cube, 1
+    yield "padded tetrahedron", *refine(*cone(NODES["(4,0,0)"])), 1
+    yield "padded prism", *refine(*cone("134 145 153 243 254 235")), 1
+    ball = cube[0] / np.maximum(np.linalg.norm(cube[0], axis=1, keepdims=True), 1)
+    yield "sphere", ball * 1.0, cube[1], 1
+    yield "ellipsoid", ball * [2.0, 1.0, 1.0], cube[1], 1
+
+
+def decompose(program, mesh, output, extra):
+    """What the program says, as text, and the smallest scaled Jacobian and sheets at its end."""
+    command = [program, "decompose", str(mesh), "-o", str(output), "--free-boundary", *extra]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=900)
+    found = re.search(r"after (\d+) sheets: (\d+) hexes, smallest scaled Jacobian ([\d.-]+)", done.stdout)
+    if done.returncode != 0 or not found:
+        raise SystemExit(f"{' '.join(command)} ended with {done.returncode}: {done.stderr or done.stdout}")
+    nodes = re.findall(r"nodes     (\d+)", done.stdout)
+    return int(found[1]), float(found[3]), int(nodes[-1])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", metavar="HEXFIELD")
+    parser.add_argument("directory", type=Path)
+    options = parser.parse_args()
+    options.directory.mkdir(parents=True, exist_ok=True)
+    print("| mesh | sheets | nodes left | before | paper | after | paper |\n|---|---|---|---|---|---|---|")
+    for number, (name, points, hexes, layers) in enumerate(meshes()):
+        file = options.directory / f"mesh{number}.vtk"
+        write(file, points, hexes)
+        padding = ["--pad", str(layers)]
+        _, before, _ = decompose(options.program, file, options.directory / f"before{number}.vtk", [*padding, "--budget", "0"])
+        sheets, after, nodes = decompose(options.program, file, options.directory / f"after{number}.vtk", padding)
+        paper = PAPER.get(name, ("", ""))
+        print(f"| {name} | {sheets} | {nodes} | {before:.3f} | {paper[0]} | {after:.3f} | {paper[1]} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
