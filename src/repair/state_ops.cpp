@@ -168,24 +168,24 @@ namespace {
 constexpr double settled_turn = 1e-3;
 
 AlignReport smooth_aligned(RepairState& state, std::span<const TetId> tets, int sweeps, const EdgeCodes& codes,
-                           SingularSign sign) {
+                           SingularSign sign, double tolerance) {
   std::vector<TetId> ordered(tets.begin(), tets.end());
   std::sort(ordered.begin(), ordered.end());
   const auto constraints = collect_constraints_of(state.mesh, state.features, state.field, codes, ordered, sign);
   AlignOptions options;
   options.sweeps = sweeps;
-  options.tolerance = settled_turn;
+  options.tolerance = tolerance;
   return align_submesh(state.mesh, state.field, constraints, ordered, options);
 }
 
 }  // namespace
 
 AlignReport smooth(RepairState& state, std::span<const TetId> tets, int sweeps, SingularSign sign) {
-  return smooth_aligned(state, tets, sweeps, state.codes, sign);
+  return smooth_aligned(state, tets, sweeps, state.codes, sign, 0);
 }
 
 AlignReport smooth_to_features(RepairState& state, std::span<const TetId> tets, int sweeps) {
-  return smooth_aligned(state, tets, sweeps, {}, SingularSign::by_geometry);
+  return smooth_aligned(state, tets, sweeps, {}, SingularSign::by_geometry, settled_turn);
 }
 
 std::vector<Violation> check(const RepairState& state) {
