@@ -95,10 +95,15 @@ bool push_inside(RepairState& state, VertexId v) {
   bool good = !state.codes.contains(arc[0]) && !state.codes.contains(arc[1]);
   for (std::size_t i = 2; good && i < patch.boundary.size(); ++i) {
     const EdgeCode now = code_of(state, patch.boundary[i]);
-    good = now == code || now == undetermined_code;
+    good = std::abs(now) == 1 || now == undetermined_code;
   }
-  if (!good) before.restore(state);
-  return good;
+  if (!good) {
+    before.restore(state);
+    return false;
+  }
+  // It is the same arc: edges that zigzag across its axis keep its sign (defect D2).
+  for (std::size_t i = 2; i < patch.boundary.size(); ++i) state.codes[patch.boundary[i]] = code;
+  return true;
 }
 
 }  // namespace hexfield

@@ -204,6 +204,25 @@ bool repair_sectors(RepairState& state, const EdgeKey& edge) {
   return wide != all.end() && change_sector(state, edge, *wide, -1);
 }
 
+bool lift_from_surface(RepairState& state, const EdgeKey& edge) {
+  const EdgeCode code = code_of(state, edge);
+  if (code == 0 || code == compound_code || state.features.edges.contains(edge)) return false;
+  const EdgeRing ring = ring_of(state.mesh, edge[0], edge[1]);
+  const std::vector<Sector> between = sectors_at(state, edge);
+  auto quads = [](const std::vector<Sector>& all) {
+    int sum = 0;
+    for (const Sector& s : all) sum += s.quads;
+    return sum;
+  };
+  if (!ring.closed || between.empty() || quads(between) == 4 + code) return false;
+  std::vector<Unzip> candidates;
+  for (const Sector& s : between)
+    for (const FaceKey& f : faces_to_unzip(state, edge, s.tets, s.crossings))
+      candidates.push_back({f, octahedral::identity});
+  return best_unzip(state, edge, candidates,
+                    [&] { return code_of(state, edge) == 0 && quads(sectors_at(state, edge)) == 4; });
+}
+
 bool remove_singular_triangle(RepairState& state, const FaceKey& face) {
   const HalfFaceId h = find_half_face(state.mesh, face);
   if (!h.valid() || is_feature_face(state, h)) return false;

@@ -45,6 +45,13 @@ std::vector<EdgeKey> edges_with_bad_sectors(const RepairState& state) {
   return candidates;
 }
 
+// An inner edge of a feature face.
+bool in_surface(const RepairState& state, const EdgeKey& e) {
+  const EdgeRing ring = ring_of(state.mesh, e[0], e[1]);
+  return ring.closed && std::any_of(ring.crossings.begin(), ring.crossings.end(),
+                                    [&](HalfFaceId h) { return is_feature_face(state, h); });
+}
+
 int remove_triangles(RepairState& state) {
   std::set<FaceKey> faces;
   for (const auto& entry : state.codes) {
@@ -74,10 +81,18 @@ int push_arcs(RepairState& state) {
   return static_cast<int>(std::count(commits.begin(), commits.end(), 1));
 }
 
+// Codes of boundary edges are sums of sectors, which frames alone can change.
+void refresh_boundary_codes(RepairState& state) {
+  std::vector<EdgeKey> edges =
+      edges_where(state, [&](const EdgeKey& e, EdgeCode) { return !ring_of(state.mesh, e[0], e[1]).closed; });
+  update_codes(state, edges);
+}
+
 }  // namespace
 
 EdgeRepairCounts repair_edges(RepairState& state, const EdgeRepairOptions& options) {
   EdgeRepairCounts counts;
+  refresh_boundary_codes(state);
   for (int round = 0; round < options.rounds; ++round) {
     const int before = counts.total();
     if (options.triangles) counts.triangles += remove_triangles(state);
@@ -87,6 +102,12 @@ EdgeRepairCounts repair_edges(RepairState& state, const EdgeRepairOptions& optio
       counts.compound += at_edges(state, edges_where(state, compound), repair_compound_edge);
     }
     if (options.sectors) counts.sectors += at_edges(state, edges_with_bad_sectors(state), repair_sectors);
+    if (options.lift) {
+      const auto any = [](const EdgeKey&, EdgeCode) { return true; };
+      std::vector<EdgeKey> edges = edges_where(state, any);
+      std::erase_if(edges, [&](const EdgeKey& e) { return state.features.edges.contains(e) || !in_surface(state, e); });
+      counts.lifted += at_edges(state, edges, lift_from_surface);
+    }
     if (options.index) {
       const auto high = [](const EdgeKey&, EdgeCode code) {
         return std::abs(code) >= 2 && code != compound_code && code != undetermined_code;

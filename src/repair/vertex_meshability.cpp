@@ -215,8 +215,7 @@ VertexVerdict vertex_verdict(const FieldView& view, VertexId v, const VertexMapO
   guess_images(guesses[2]);
   for (int level = 0; level <= options.refinements; ++level) {
     if (level > 0 && !is_cramped(guesses[0])) break;
-    if (level > 0)
-      for (Link& link : guesses) link = refined(link);
+    if (level > 0) guesses = {refined(guesses[0])};  // the larger problem gets one guess only
     const std::vector<Vec3> images = find_drawing(guesses, options);
     if (images.empty()) continue;
     if (map != nullptr) *map = mapped(guesses[0], images);

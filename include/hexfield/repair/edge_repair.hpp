@@ -24,6 +24,10 @@ bool lower_index(RepairState& state, const EdgeKey& edge);
 /// inside one of four or more quads, so that it holds one less where the edge has |code| >= 2. One sector per call.
 bool repair_sectors(RepairState& state, const EdgeKey& edge);
 
+/// D2 on feature surfaces: an arc whose axis is the normal of a surface passes through it at a point, so an edge that
+/// runs inside the surface is unzipped into a tet at its side: the edge gets regular, the arc two edges longer.
+bool lift_from_surface(RepairState& state, const EdgeKey& edge);
+
 /// Makes the three singular edges of an inner triangle regular by one matching, if that does it.
 bool remove_singular_triangle(RepairState& state, const FaceKey& face);
 
@@ -33,13 +37,15 @@ bool push_inside(RepairState& state, VertexId v);
 
 /// What repair_edges() did.
 struct EdgeRepairCounts {
-  int compound = 0, index = 0, sectors = 0, triangles = 0, pushed = 0;
-  int total() const { return compound + index + sectors + triangles + pushed; }
+  int compound = 0, index = 0, sectors = 0, lifted = 0, triangles = 0, pushed = 0;
+  int total() const { return compound + index + sectors + lifted + triangles + pushed; }
 };
 
-/// Which of them repair_edges() applies. Stage I of the schedule leaves compound edges to shrink (section 5.7).
+/// Which of them repair_edges() applies. Stage I of the schedule leaves compound edges to shrink (section 5.7). Arcs
+/// that cannot be pushed inside along their whole length touch the surface at single vertices afterwards, which are
+/// not meshable: hence it is not done unless asked for.
 struct EdgeRepairOptions {
-  bool compound = true, index = true, sectors = true, triangles = true, push = true;
+  bool compound = true, index = true, sectors = true, lift = true, triangles = true, push = false;
   int rounds = 6;  ///< at most; ends when a round mends nothing
 };
 
