@@ -44,9 +44,9 @@ std::vector<double> untangle(const MapProblem& problem, const std::vector<double
     broadcast(comm, smallest);
     if (smallest > 0) break;
     idle = smallest > 0.7 * before ? 0 : idle + 1;
-    if (idle == max_idle_rounds) break;
+    if (idle == std::max(max_idle_rounds, max_rounds / 5)) break;
     before = smallest;
-    energy.set_epsilon(std::sqrt(1e-8 + 0.04 * smallest * smallest));
+    energy.set_epsilon(std::sqrt(1e-12 + 0.04 * smallest * smallest));
     monitor.minimise(comm, terms, y.get(), options, "untangling", {});
     unknowns = problem.gather(y.get(), fixed);
   }

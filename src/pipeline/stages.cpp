@@ -13,6 +13,7 @@
 #include "hexfield/mesh/features.hpp"
 #include "hexfield/mesh/input_check.hpp"
 #include "hexfield/mesh/manifold.hpp"
+#include "repair_values.hpp"
 
 namespace hexfield {
 namespace {

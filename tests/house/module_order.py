@@ -16,7 +16,7 @@ MAY_USE = {
     "quantize": ["base", "mesh", "field", "map"],
     "hex": ["base", "mesh", "solve", "map"],
     "moments": ["base", "mesh", "solve", "field", "map"],
-    "io": ["base", "mesh", "field", "repair", "map", "quantize", "hex"],
+    "io": ["base", "mesh", "field", "map", "quantize", "hex"],
     "pipeline": ["base", "mesh", "solve", "field", "repair", "map", "quantize", "hex", "moments", "io"],
 }
 

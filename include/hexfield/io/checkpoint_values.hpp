@@ -5,7 +5,6 @@
 #include "hexfield/io/named_arrays.hpp"
 #include "hexfield/io/tet_io.hpp"
 #include "hexfield/map/compute_map.hpp"
-#include "hexfield/repair/repair_field.hpp"
 
 /// The value types as arrays of a checkpoint group, and back. What comes back equals what went in, bit for bit.
 /// pack_* may refer to the memory of the value, which must live on while the arrays are used; unpack_* throw
@@ -14,16 +13,12 @@ namespace hexfield {
 
 NamedArrays pack(const TetInput& input);
 NamedArrays pack(const FieldResult& result);
-NamedArrays pack(const RepairResult& result);
-NamedArrays pack(const RepairIterate& iterate);
 NamedArrays pack(const SeamlessResult& result);
 NamedArrays pack(const IgmResult& result);
 NamedArrays pack(const HexMesh& mesh);
 
 TetInput unpack_tet_input(const NamedArrays& arrays);
 FieldResult unpack_field(const NamedArrays& arrays);
-RepairResult unpack_repair(const NamedArrays& arrays);
-RepairIterate unpack_repair_iterate(const NamedArrays& arrays);
 /// The map must belong to a mesh of `num_tets` tets.
 SeamlessResult unpack_seamless(const NamedArrays& arrays, std::size_t num_tets);
 IgmResult unpack_igm(const NamedArrays& arrays, std::size_t num_tets);

@@ -12,7 +12,7 @@ namespace hexfield {
 
 /// Parameters of stage 3. Defaults and sources: spec-lmff sections 5.7 and 10.
 struct RepairOptions {
-  int first_iterations = 2;      ///< iterations of Stage I: edges, nodes and constrained zipper nodes
+  int first_iterations = 8;      ///< iterations of Stage I: edges, nodes and constrained zipper nodes
   int second_rounds = 15;        ///< rounds of Stage II: free zipper nodes
   int patience = 3;              ///< rounds of Stage II without fewer defects that end it
   int inner_iterations = 6;      ///< relocations and remeshings per round of Stage II

@@ -1,10 +1,18 @@
+#include "repair_values.hpp"
+
+#include <fmt/format.h>
+
 #include <sstream>
 
+#include "hexfield/base/error.hpp"
 #include "hexfield/io/checkpoint_values.hpp"
-#include "value_arrays.hpp"
 
 namespace hexfield {
 namespace {
+
+void require_same(bool holds, const std::string& what) {
+  if (!holds) throw Error(ExitCode::bad_input, fmt::format("The checkpoint contradicts itself: {}.", what));
+}
 
 // A report as lines "number name"; names have no end of line.
 class ReportLines {
@@ -67,6 +75,12 @@ RepairReport report_from(const std::string& text) {
   return report;
 }
 
+std::vector<std::int32_t> rows_of(const std::map<EdgeKey, int>& values) {
+  std::vector<std::int32_t> rows;
+  for (const auto& [e, value] : values) rows.insert(rows.end(), {e[0].value, e[1].value, value});
+  return rows;
+}
+
 std::vector<std::int32_t> rows_of(const std::set<EdgeKey>& edges) {
   std::vector<std::int32_t> rows;
   for (const EdgeKey& e : edges) rows.insert(rows.end(), {e[0].value, e[1].value});
@@ -105,7 +119,9 @@ RepairIterate unpack_repair_iterate(const NamedArrays& arrays) {
   const auto lengths = arrays.get<double>("target_length", 1);
   require_same(lengths.size() == iterate.state.mesh.num_vertices(), "it has not one target length per vertex");
   iterate.state.target_length.assign(lengths.begin(), lengths.end());
-  iterate.state.pairs = map_of<2>(arrays.get<std::int32_t>("pairs", 3));
+  const auto pairs = arrays.get<std::int32_t>("pairs", 3);
+  for (std::size_t i = 0; i + 2 < pairs.size(); i += 3)
+    iterate.state.pairs[{VertexId(pairs[i]), VertexId(pairs[i + 1])}] = pairs[i + 2];
   const auto kept = arrays.get<std::int32_t>("kept", 2);
   for (std::size_t i = 0; i + 1 < kept.size(); i += 2)
     iterate.state.kept.insert({VertexId(kept[i]), VertexId(kept[i + 1])});

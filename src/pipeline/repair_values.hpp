@@ -1,0 +1,14 @@
+#pragma once
+
+#include "hexfield/io/named_arrays.hpp"
+#include "hexfield/repair/repair_field.hpp"
+
+/// The values of stage 3 as arrays of a checkpoint group, and back, bit for bit: see io/checkpoint_values.hpp.
+namespace hexfield {
+
+NamedArrays pack(const RepairResult& result);
+NamedArrays pack(const RepairIterate& iterate);
+RepairResult unpack_repair(const NamedArrays& arrays);
+RepairIterate unpack_repair_iterate(const NamedArrays& arrays);
+
+}  // namespace hexfield
