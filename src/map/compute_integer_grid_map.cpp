@@ -97,6 +97,7 @@ class Stage {
       : comm_(comm), mesh_(mesh), features_(features), codes_(codes), control_(control), monitor_(control, "igm") {}
 
   IgmResult run(const SeamlessMap& map, const IgmOptions& options) {
+    choose_integers_ = options.choose_integers;
     agree(comm_, [&] {
       if (root()) seamless_ = prepare(mesh_, features_, codes_, map, options);
     });
@@ -131,7 +132,7 @@ class Stage {
       Rounded rounded;
       agree(comm_, [&] {
         if (!root()) return;
-        const std::optional<Rounded> best = round_near(mesh_, seamless_, scale);
+        const std::optional<Rounded> best = choose(scale);
         found = best.has_value();
         if (best) rounded = *best;
         scale = std::max(scale, rounded.scale);
@@ -144,6 +145,13 @@ class Stage {
       result_.quantization_valid = true;
       if (try_integers(problem, rounded)) break;
     }
+  }
+
+  std::optional<Rounded> choose(double scale) const {
+    if (!choose_integers_) return round_near(mesh_, seamless_, scale);
+    const auto choice = choose_integers_(seamless_.space, seamless_.map_volume * std::pow(scale, 3));
+    if (!choice) return std::nullopt;
+    return Rounded{choice->scale, choice->integers, choice->hexes};
   }
 
   bool try_integers(const MapProblem& problem, Rounded& rounded) {
@@ -196,6 +204,7 @@ class Stage {
   const EdgeCodes& codes_;
   const Control& control_;
   SolveMonitor monitor_;
+  std::function<std::optional<IntegerChoice>(const ConformingSpace&, double)> choose_integers_;
   Seamless seamless_;
   IgmResult result_;
 };

@@ -37,6 +37,14 @@ class WallCells {
   void ignite(const BlockCut& cut, class BrushFire& fire);
   /// Valid when there are no cuts.
   BlockComplex complex;
+  std::int32_t block_of_tet(std::int32_t t) const { return block_[static_cast<std::size_t>(t)]; }
+  const ChartStep& to_block(std::int32_t t) const { return to_block_[static_cast<std::size_t>(t)]; }
+  /// The node at a vertex of the cut mesh, or -1.
+  std::int32_t node_at(std::int32_t vertex) const { return node_[static_cast<std::size_t>(vertex)]; }
+  /// The patch that wall half-face h is part of.
+  std::int32_t patch_at(std::int32_t h) const {
+    return patch_of_face_[static_cast<std::size_t>(face_[static_cast<std::size_t>(h)])];
+  }
   /// Removes the walls of a patch from the mesh.
   void clear_patch(std::int32_t patch);
 
@@ -78,5 +86,8 @@ class WallCells {
   std::vector<std::int32_t> patch_of_face_;
   std::vector<BlockCut> cuts_;
 };
+
+/// Walls from all sources, further cuts of blocks that need them, then the removal of walls; leaves `cells` built.
+void trace_and_reduce(ChartMesh& walls, WallCells& cells, bool reduce);
 
 }  // namespace hexfield::quantize

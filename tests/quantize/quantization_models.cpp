@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "hexfield/quantize/exact_seamless.hpp"
+#include "hexfield/quantize/map_quantizer.hpp"
 #include "hexfield/quantize/motorcycle_complex.hpp"
 #include "seamless_models.hpp"
 
@@ -53,6 +54,34 @@ TEST(QuantizationModels, EveryMapGetsValidIntegers) {
                       pump.hexes, pump.objective, pump.rounds, pump.separations, middle - start, ilp.hexes,
                       ilp.objective, ilp.rounds, ilp.separations, end - middle,
                       ilp.method == QuantizeMethod::ilp ? "ilp" : "positive", ilp.proven_optimal ? ", optimal" : ""));
+    }
+  }
+}
+
+// The walk over the mesh meets every value in more than one way and refuses when they differ; rounding moves a
+// coordinate by little.
+TEST(QuantizationModels, IntegerUnknownsFollowTheMap) {
+  const auto models = seamless_models();
+  if (models.empty()) GTEST_SKIP() << "no shared data beside the checkout";
+  for (const auto& file : models) {
+    SCOPED_TRACE(file.filename().string());
+    const HexexInput input = read_packed(file);
+    const ExactSeamless exact = make_exactly_seamless(input.mesh, input.features, input.map);
+    const ConformingSpace space =
+        conforming_space(input.mesh, cut_graph(input.mesh, matchings_of(exact.map), singular_edges(exact.codes)),
+                         alignments_of_map(input.mesh, input.features, exact.codes, exact.map));
+    const std::vector<double> y = unknowns_of(input.mesh, space, exact.map);
+    try {
+      const MapQuantizer quantizer(input.mesh, input.features, exact.codes, exact.map);
+      const Quantization q = quantize_complex(quantizer.complex(), {QuantizeMethod::pump, 20000, 60});
+      const std::vector<double> integers = quantizer.integer_unknowns(space, q.lengths);
+      double worst = 0;
+      for (std::size_t k = 0; k < integers.size(); ++k)
+        worst = std::max(worst, std::abs(integers[k] - q.scale * y[space.num_reals + k]));
+      RecordProperty(file.stem().stem().string(), fmt::format("{:.2f}", worst));
+      EXPECT_LT(worst, 10);
+    } catch (const Error& error) {
+      ADD_FAILURE() << error.sentence();
     }
   }
 }

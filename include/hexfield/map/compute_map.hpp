@@ -2,11 +2,14 @@
 
 #include <mpi.h>
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hexfield/base/control.hpp"
 #include "hexfield/field/frame_field.hpp"
+#include "hexfield/map/conforming_space.hpp"
 #include "hexfield/map/corner_map.hpp"
 #include "hexfield/mesh/features.hpp"
 
@@ -45,10 +48,20 @@ SeamlessResult compute_seamless_map(MPI_Comm comm, const TetMesh& mesh, const Fe
                                     const FrameField& field, const EdgeCodes& codes, const SeamlessOptions& options,
                                     const Control& control);
 
+/// Values for the integer unknowns of a conforming space, for a map that is `scale` times the seamless one.
+struct IntegerChoice {
+  double scale = 1;
+  std::vector<double> integers;
+  double hexes = 0;  ///< that the map will have
+};
+
 /// Parameters of the rounding quantizer and stage 6 (spec-lmff section 9, spec-quantization section 6).
 struct IgmOptions {
   double target_hexes = 10000;
   double edge_length = 0;  ///< wanted hex edge length in input units; overrides target_hexes when > 0
+  /// Takes the place of rounding when set: integers for about this number of hexes; called on rank 0 with the space
+  /// of the seamless map. nullopt: none found.
+  std::function<std::optional<IntegerChoice>(const ConformingSpace&, double hexes)> choose_integers;
 };
 
 struct IgmResult {

@@ -1,0 +1,38 @@
+#include "hexfield/quantize/map_quantizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "integer_frames.hpp"
+#include "wall_cells.hpp"
+
+namespace hexfield {
+
+using namespace quantize;
+
+struct MapQuantizer::Impl {
+  ChartMesh walls;
+  WallCells cells;
+
+  Impl(const TetMesh& mesh, const Features& features, const EdgeCodes& codes, const SeamlessMap& map)
+      : walls(mesh, features, codes, map), cells(walls) {
+    trace_and_reduce(walls, cells, true);
+  }
+};
+
+MapQuantizer::MapQuantizer(const TetMesh& mesh, const Features& features, const EdgeCodes& codes,
+                           const SeamlessMap& map)
+    : impl_(std::make_unique<Impl>(mesh, features, codes, map)) {}
+MapQuantizer::~MapQuantizer() = default;
+MapQuantizer::MapQuantizer(MapQuantizer&&) noexcept = default;
+MapQuantizer& MapQuantizer::operator=(MapQuantizer&&) noexcept = default;
+
+const BlockComplex& MapQuantizer::complex() const { return impl_->cells.complex; }
+
+std::vector<double> MapQuantizer::integer_unknowns(const ConformingSpace& space,
+                                                   const std::vector<std::int64_t>& lengths) const {
+  return IntegerFrames(impl_->walls, impl_->cells, space, lengths).unknowns();
+}
+
+}  // namespace hexfield
