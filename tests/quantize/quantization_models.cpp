@@ -79,7 +79,7 @@ TEST(QuantizationModels, IntegerUnknownsFollowTheMap) {
       for (std::size_t k = 0; k < integers.size(); ++k)
         worst = std::max(worst, std::abs(integers[k] - q.scale * y[space.num_reals + k]));
       RecordProperty(file.stem().stem().string(), fmt::format("{:.2f}", worst));
-      EXPECT_LT(worst, 10);
+      EXPECT_LT(worst, 4);
     } catch (const Error& error) {
       ADD_FAILURE() << error.sentence();
     }
