@@ -89,9 +89,9 @@ std::vector<std::int32_t> rows_of(const std::set<EdgeKey>& edges) {
 
 }  // namespace
 
-NamedArrays pack(const RepairResult& result) {
-  NamedArrays arrays = pack(result.field);
-  arrays.own_text("repair_report", text_of(result.report));
+NamedArrays pack_repair(const FieldResult& field, const RepairReport& report) {
+  NamedArrays arrays = pack(field);
+  arrays.own_text("repair_report", text_of(report));
   return arrays;
 }
 

@@ -121,7 +121,7 @@ Stage repair_stage() {
       state.repair = std::move(result.report);
     });
   };
-  stage.pack = [](const RunState& state) { return pack(RepairResult{state.field, state.repair}); };
+  stage.pack = [](const RunState& state) { return pack_repair(state.field, state.repair); };
   stage.unpack = [](RunState& state, const NamedArrays& arrays) {
     RepairResult result = unpack_repair(arrays);
     state.field = std::move(result.field);
