@@ -81,20 +81,6 @@ void order(std::vector<AxisConstraint>& found) {
                    [](const AxisConstraint& a, const AxisConstraint& b) { return a.tet < b.tet; });
 }
 
-// The edges of the tets with one tet of each, ascending.
-std::vector<std::pair<EdgeKey, TetId>> edges_with_tets(const TetMesh& mesh, std::span<const TetId> tets) {
-  std::vector<std::pair<EdgeKey, TetId>> edges;
-  for (TetId t : tets) {
-    const auto& v = mesh.vertices(t);
-    for (const auto& e : tet_edge_vertices)
-      edges.emplace_back(edge_key(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]), t);
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end(), [](const auto& x, const auto& y) { return x.first == y.first; }),
-              edges.end());
-  return edges;
-}
-
 }  // namespace
 
 std::vector<AxisConstraint> collect_constraints(const TetMesh& mesh, const Features& features, const FrameField& field,

@@ -207,6 +207,20 @@ std::vector<std::pair<EdgeKey, TetId>> all_edges(const TetMesh& mesh) {
   return edges;
 }
 
+std::vector<std::pair<EdgeKey, TetId>> edges_with_tets(const TetMesh& mesh, std::span<const TetId> tets) {
+  std::vector<std::pair<EdgeKey, TetId>> edges;
+  edges.reserve(6 * tets.size());
+  for (TetId t : tets) {
+    const auto& v = mesh.vertices(t);
+    for (const auto& e : tet_edge_vertices)
+      edges.emplace_back(edge_key(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]), t);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end(), [](const auto& x, const auto& y) { return x.first == y.first; }),
+              edges.end());
+  return edges;
+}
+
 EdgeCodes compute_codes(const TetMesh& mesh, const Features& features, const FrameField& field) {
   const auto edges = all_edges(mesh);
   std::vector<EdgeCode> codes(edges.size(), 0);

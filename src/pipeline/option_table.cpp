@@ -73,7 +73,6 @@ OptionTable::OptionTable(RunOptions& o) {
       {"repair.patience", "repair", &o.repair.patience, 1},
       {"repair.inner_iterations", "repair", &o.repair.inner_iterations, 1},
       {"repair.alignment_weight", "repair", &o.repair.alignment_weight, 0},
-      {"repair.longest_first", "repair", &o.repair.longest_first},
       {"repair.post_remesh_rounds", "repair", &o.repair.post_remesh_rounds, 0},
       {"seamless.max_misalignment_degrees", "seamless", &o.seamless.max_misalignment_degrees, 0, 180},
       {"improve.max_rounds", "improve", &o.improve.max_rounds, 0},

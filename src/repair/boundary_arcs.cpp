@@ -8,8 +8,6 @@
 namespace hexfield {
 namespace {
 
-VertexId other_end(const EdgeKey& e, VertexId v) { return e[0] == v ? e[1] : e[0]; }
-
 bool is_boundary_edge(const RepairState& state, const EdgeKey& e) { return !ring_of(state.mesh, e[0], e[1]).closed; }
 
 // Shortest way through the link of v from a to b over vertices inside the domain that have no special edge; every

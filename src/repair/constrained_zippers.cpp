@@ -13,8 +13,6 @@ namespace {
 
 using octahedral::Label;
 
-VertexId other_end(const EdgeKey& edge, VertexId v) { return edge[0] == v ? edge[1] : edge[0]; }
-
 // In a feature face, or special itself: no spoke for a vertex on a feature.
 bool is_held(const RepairState& state, VertexId a, VertexId b) {
   if (is_special(state, edge_key(a, b))) return true;

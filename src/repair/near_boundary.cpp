@@ -9,8 +9,6 @@
 namespace hexfield {
 namespace {
 
-VertexId other_end(const EdgeKey& edge, VertexId v) { return edge[0] == v ? edge[1] : edge[0]; }
-
 bool on_feature_curve(const RepairState& state, VertexId v) {
   return std::ranges::any_of(edges_at(state.mesh, v),
                              [&](const EdgeKey& e) { return state.features.edges.contains(e); });

@@ -2,18 +2,12 @@
 
 #include <algorithm>
 
+#include "hexfield/repair/state_ops.hpp"
+
 namespace hexfield {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-std::vector<VertexId> vertices_of(const TetMesh& mesh, std::span<const TetId> tets) {
-  std::vector<VertexId> all;
-  for (TetId t : tets) all.insert(all.end(), mesh.vertices(t).begin(), mesh.vertices(t).end());
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
 
 // Translates sorted keys between two numberings; the second member of `map_key` says whether all ids exist.
 template <std::size_t N, class Translate>

@@ -19,14 +19,6 @@ namespace {
 using octahedral::Label;
 using Place = SingularVertex::Place;
 
-std::vector<VertexId> vertices_of(const TetMesh& mesh, std::span<const TetId> tets) {
-  std::vector<VertexId> all;
-  for (TetId t : tets) all.insert(all.end(), mesh.vertices(t).begin(), mesh.vertices(t).end());
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
-
 double mesh_volume(const TetMesh& mesh) {
   return parallel_sum(mesh.num_tets(), 4096, [&](std::size_t begin, std::size_t end) {
     double sum = 0;

@@ -50,20 +50,6 @@ double RemeshContext::relative_length(const EdgeKey& e) const {
   return (state.mesh.point(e[0]) - state.mesh.point(e[1])).norm() / target;
 }
 
-std::vector<std::pair<EdgeKey, TetId>> seeded_edges(const TetMesh& mesh, std::span<const TetId> tets) {
-  std::vector<std::pair<EdgeKey, TetId>> edges;
-  edges.reserve(6 * tets.size());
-  for (TetId t : tets) {
-    const auto& v = mesh.vertices(t);
-    for (const auto& e : tet_edge_vertices)
-      edges.emplace_back(edge_key(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]), t);
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end(), [](const auto& x, const auto& y) { return x.first == y.first; }),
-              edges.end());
-  return edges;
-}
-
 EdgeCode computed_code(const RepairState& state, const EdgeKey& e, TetId seed) {
   return edge_code(state.mesh, state.features, state.field, edge_ring(state.mesh, seed, e[0], e[1]), e[0], e[1]);
 }
@@ -76,7 +62,7 @@ double worst_distortion(const TetMesh& mesh, std::span<const TetId> tets) {
 
 std::vector<SizedEdge> alive_edges(const RemeshContext& context, std::span<const TetId> tets, bool longest_first) {
   std::vector<SizedEdge> edges;
-  for (const auto& [e, seed] : seeded_edges(context.state.mesh, tets))
+  for (const auto& [e, seed] : edges_with_tets(context.state.mesh, tets))
     edges.push_back({e, seed, context.relative_length(e)});
   std::stable_sort(edges.begin(), edges.end(), [&](const SizedEdge& a, const SizedEdge& b) {
     return longest_first ? a.length > b.length : a.length < b.length;

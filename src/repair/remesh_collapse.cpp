@@ -119,7 +119,7 @@ class Collapse {
   };
 
   std::vector<Expected> expectations() const {
-    const auto edges = seeded_edges(state_.mesh, star_);
+    const auto edges = edges_with_tets(state_.mesh, star_);
     const auto seed_of = [&](const EdgeKey& e) {
       return std::lower_bound(edges.begin(), edges.end(), std::pair(e, TetId()))->second;
     };
@@ -150,7 +150,7 @@ class Collapse {
     for (TetId t : star_)
       if (state_.mesh.alive(t)) around.push_back(t);
     around.insert(around.end(), beyond_.begin(), beyond_.end());
-    const auto edges = seeded_edges(state_.mesh, around);
+    const auto edges = edges_with_tets(state_.mesh, around);
     for (const Expected& x : expected) {
       const auto found = std::lower_bound(edges.begin(), edges.end(), std::pair(x.edge, TetId()));
       require(found != edges.end() && found->first == x.edge, "An edge is missing after a collapse.");

@@ -3,6 +3,7 @@
 #include <span>
 #include <utility>
 #include <vector>
+#include "hexfield/field/edge_codes.hpp"
 
 #include "hexfield/repair/remesh.hpp"
 
@@ -40,8 +41,6 @@ std::vector<SizedEdge> alive_edges(const RemeshContext& context, std::span<const
 /// Largest distortion (mesh/quality.hpp) of some tets.
 double worst_distortion(const TetMesh& mesh, std::span<const TetId> tets);
 
-/// Edges of some tets with one of the tets each, ascending by edge.
-std::vector<std::pair<EdgeKey, TetId>> seeded_edges(const TetMesh& mesh, std::span<const TetId> tets);
 /// Code from frames and matchings as they are now.
 EdgeCode computed_code(const RepairState& state, const EdgeKey& e, TetId seed);
 

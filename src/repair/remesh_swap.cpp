@@ -119,7 +119,7 @@ class Swap {
 
   std::vector<std::pair<EdgeKey, EdgeCode>> codes_of(std::span<const TetId> tets) const {
     std::vector<std::pair<EdgeKey, EdgeCode>> codes;
-    for (const auto& [e, t] : seeded_edges(state_.mesh, tets))
+    for (const auto& [e, t] : edges_with_tets(state_.mesh, tets))
       if (e != edge_) codes.emplace_back(e, computed_code(state_, e, t));
     return codes;
   }

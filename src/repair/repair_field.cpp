@@ -34,13 +34,11 @@ struct Variation {
   void (*apply)(RepairOptions&);
 };
 
-constexpr std::array<Variation, 6> variations = {{
+constexpr std::array<Variation, 4> variations = {{
     {"default", [](RepairOptions&) {}},
     {"alignment weight 1", [](RepairOptions& o) { o.alignment_weight = 1; }},
-    {"short arcs first", [](RepairOptions& o) { o.longest_first = false; }},
     {"more iterations before free zipper nodes", [](RepairOptions& o) { o.first_iterations += 8; }},
     {"alignment weight 100", [](RepairOptions& o) { o.alignment_weight = 100; }},
-    {"alignment weight 1, short arcs first", [](RepairOptions& o) { o.alignment_weight = 1, o.longest_first = false; }},
 }};
 
 const Variation& variation(int attempt) { return variations[static_cast<std::size_t>(attempt) % variations.size()]; }

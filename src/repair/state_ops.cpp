@@ -115,6 +115,20 @@ bool on_boundary(const TetMesh& mesh, VertexId v) {
   return false;
 }
 
+std::vector<VertexId> vertices_of(const TetMesh& mesh, std::span<const TetId> tets) {
+  std::vector<VertexId> all;
+  for (TetId t : tets) all.insert(all.end(), mesh.vertices(t).begin(), mesh.vertices(t).end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+int new_pair(const RepairState& state) {
+  int pair = 0;
+  for (const auto& [edge, id] : state.pairs) pair = std::max(pair, id + 1);
+  return pair;
+}
+
 std::vector<EdgeKey> edges_of(const TetMesh& mesh, std::span<const TetId> tets) {
   std::vector<EdgeKey> edges;
   for (TetId t : tets) {

@@ -41,12 +41,6 @@ void mark_side(RepairState& state, const std::vector<VertexId>& side, EdgeCode c
   }
 }
 
-int new_pair(const RepairState& state) {
-  int pair = 0;
-  for (const auto& [edge, id] : state.pairs) pair = std::max(pair, id + 1);
-  return pair;
-}
-
 }  // namespace
 
 std::optional<ZipTarget> code_target(const RepairState& state, VertexId from, VertexId to, TetId tet,

@@ -11,8 +11,6 @@
 namespace hexfield {
 namespace {
 
-VertexId other_end(const EdgeKey& edge, VertexId v) { return edge[0] == v ? edge[1] : edge[0]; }
-
 constexpr int arc_steps = 3;  // edges of an arc that tell its direction
 
 // Direction in space of the arc that leaves v along `edge`.
@@ -47,12 +45,6 @@ void mark_arc(RepairState& state, const std::vector<VertexId>& arc, EdgeCode cod
     state.codes[e] = code;
     state.pairs[e] = pair;
   }
-}
-
-int new_pair(const RepairState& state) {
-  int pair = 0;
-  for (const auto& [edge, id] : state.pairs) pair = std::max(pair, id + 1);
-  return pair;
 }
 
 // First side and end of the strip to a partner: equal codes meet.

@@ -52,8 +52,6 @@ class Net {
   std::set<EdgeKey> quarter_;
 };
 
-VertexId other_end(const EdgeKey& edge, VertexId v) { return edge[0] == v ? edge[1] : edge[0]; }
-
 // Walks from `from` along `edge` to the end of the chain; the vertices after `from`.
 std::vector<VertexId> walk(Net& net, EdgeKey edge, VertexId from, std::set<EdgeKey>& used) {
   std::vector<VertexId> vertices;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,9 @@ octahedral::Label outgoing_label(const TetMesh& mesh, const FrameField& field, c
 
 /// Every edge with its smallest tet, ordered by key.
 std::vector<std::pair<EdgeKey, TetId>> all_edges(const TetMesh& mesh);
+
+/// The edges of these tets with the smallest of the tets that has each, ordered by key.
+std::vector<std::pair<EdgeKey, TetId>> edges_with_tets(const TetMesh& mesh, std::span<const TetId> tets);
 
 /// Codes of all edges. The order of the map and the codes do not depend on the number of threads.
 EdgeCodes compute_codes(const TetMesh& mesh, const Features& features, const FrameField& field);

@@ -17,12 +17,11 @@ struct RepairOptions {
   int patience = 3;              ///< rounds of Stage II without fewer defects that end it
   int inner_iterations = 6;      ///< relocations and remeshings per round of Stage II
   double alignment_weight = 10;  ///< of singular edges to the field, against the other energies of the relocation
-  bool longest_first = true;     ///< free zipper nodes of long arcs are unzipped first
   int post_remesh_rounds = 3;    ///< rounds of remeshing of the whole mesh at the end
 };
 
 /// Another setting for another try; 0 is `options` itself. The changes are those by which the authors of the method
-/// got further models by hand: iterations, alignment weight, order of the paths (Liu and Bommes 2023, section 7).
+/// got further models by hand: iterations and alignment weight (Liu and Bommes 2023, section 7).
 RepairOptions varied(const RepairOptions& options, int attempt);
 /// What varied() changed, for the report: "default", "alignment weight 1".
 std::string name_of_variation(int attempt);

@@ -59,6 +59,12 @@ bool is_special(const RepairState& state, const EdgeKey& edge);
 EdgeCode code_of(const RepairState& state, const EdgeKey& edge);
 bool on_boundary(const TetMesh& mesh, VertexId v);
 
+inline VertexId other_end(const EdgeKey& edge, VertexId v) { return edge[0] == v ? edge[1] : edge[0]; }
+/// The vertices of these tets, ascending.
+std::vector<VertexId> vertices_of(const TetMesh& mesh, std::span<const TetId> tets);
+/// An id that no pair of arcs has yet.
+int new_pair(const RepairState& state);
+
 /// The edges of these tets, ascending.
 std::vector<EdgeKey> edges_of(const TetMesh& mesh, std::span<const TetId> tets);
 /// The edges at v, ascending by their other end.
