@@ -17,13 +17,8 @@ namespace hexfield {
 namespace {
 
 constexpr int untangling_rounds = 30;
-/// Rounds for a map that is nearly valid, while better starts are still to come.
-constexpr int quick_rounds = 8;
-/// Share of inverted tets up to which untangling is tried at once: it then costs less than one stage of the
-/// integrable frames.
-constexpr double nearly_valid = 0.01;
 /// The frames are given up when this many stages in a row end without a better conforming map ...
-constexpr int max_idle_stages = 3;
+constexpr int max_idle_stages = 2;
 /// ... which has at most this share of the defects of the best one before.
 constexpr double progress_factor = 0.9;
 
@@ -65,8 +60,6 @@ class Stage {
     if (!restore(problem, best)) {
       best = fitted(problem, field_frames());
       if (!best.report.valid()) try_integrable_frames(problem, best);
-      if (!best.report.valid())
-        keep_better(best, judged(untangle(problem, best.unknowns, {}, edge_, untangling_rounds, monitor_)));
     }
     if (best.report.inverted.empty()) {
       const Candidate polished = judged(polish(problem, best.unknowns));
@@ -98,14 +91,17 @@ class Stage {
     if (other.better_than(best)) best = std::move(other);
   }
 
-  // The conforming fit to frames, untangled where only few tets are inverted.
+  // The conforming fit to frames; where it is not valid, made positive, then untangled.
   Candidate fitted(const MapProblem& problem, const std::vector<Mat3>& frames) {
-    Candidate result = judged(fit(problem, frames));
-    const auto tets = static_cast<double>(problem.distributed().num_global_tets());
-    const auto inverted = static_cast<double>(result.report.inverted.size());
-    if (inverted > 0 && inverted <= nearly_valid * tets)
-      keep_better(result, judged(untangle(problem, result.unknowns, {}, edge_, quick_rounds, monitor_)));
-    return result;
+    Candidate best = judged(fit(problem, frames));
+    if (best.report.valid()) return best;
+    make_positive(problem, best.unknowns, frames, monitor_, [&](const std::vector<double>& unknowns) {
+      keep_better(best, judged(unknowns));
+      return best.report.valid();
+    });
+    if (!best.report.inverted.empty())
+      keep_better(best, judged(untangle(problem, best.unknowns, {}, edge_, untangling_rounds, monitor_)));
+    return best;
   }
 
   // Conforming fits to the frames after each stage of their optimisation, until one is valid or they get no better:

@@ -3,6 +3,7 @@
 #include <petscvec.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "collective.hpp"
@@ -148,6 +149,15 @@ void MapProblem::corners_of(std::size_t tet, std::span<const double> fixed,
 std::vector<double> MapProblem::volume_weights() const {
   std::vector<double> weights = volumes_;
   for (double& w : weights) w /= total_volume_;
+  return weights;
+}
+
+std::vector<double> MapProblem::length_weights() const {
+  std::vector<double> weights = volumes_;
+  double sum = 0;
+  for (double& w : weights) sum += w = std::cbrt(w);
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  for (double& w : weights) w /= sum;
   return weights;
 }
 

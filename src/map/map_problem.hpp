@@ -61,6 +61,8 @@ class MapProblem {
   }
   /// Share of every owned tet in the total volume.
   std::vector<double> volume_weights() const;
+  /// Weights of the same sum that grow with the edge length of a tet (cube root of its volume) only.
+  std::vector<double> length_weights() const;
   /// The same frame for every owned tet: `edge` times the identity.
   std::vector<Mat3> uniform_frames(double edge) const;
   /// Sends one matrix per tet from rank 0 to its owner. Collective.
