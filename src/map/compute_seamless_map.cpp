@@ -54,12 +54,13 @@ class Stage {
     agree(comm_, [&] {
       if (root()) prepare();
     });
+    broadcast(comm_, some_tets_are_flat_);
     const MapProblem problem(comm_, mesh_, space_);
     edge_ = std::cbrt(problem.total_volume() / options_.target_hexes);
     Candidate best;
     if (!restore(problem, best)) {
       best = fitted(problem, field_frames());
-      if (!best.report.valid()) try_integrable_frames(problem, best);
+      if (!best.report.valid() && !some_tets_are_flat_) try_integrable_frames(problem, best);
     }
     if (best.report.inverted.empty()) {
       const Candidate polished = judged(polish(problem, best.unknowns));
@@ -75,6 +76,7 @@ class Stage {
     constraints_ = collect_constraints(mesh_, features_, field_, codes_);
     space_ = conforming_space(mesh_, cut_graph(mesh_, field_.matchings, singular_edges(codes_)),
                               alignments_of_field(constraints_, features_, codes_));
+    some_tets_are_flat_ = !space_.collapsed.empty();
   }
 
   // The iterate of an interrupted polish, if there is one.
@@ -94,7 +96,7 @@ class Stage {
   // The conforming fit to frames; where it is not valid, made positive, then untangled.
   Candidate fitted(const MapProblem& problem, const std::vector<Mat3>& frames) {
     Candidate best = judged(fit(problem, frames));
-    if (best.report.valid()) return best;
+    if (best.report.valid() || some_tets_are_flat_) return best;
     make_positive(problem, best.unknowns, frames, monitor_, [&](const std::vector<double>& unknowns) {
       keep_better(best, judged(unknowns));
       return best.report.valid();
@@ -213,6 +215,7 @@ class Stage {
   const Control& control_;
   SolveMonitor monitor_;
   ConformingSpace space_;
+  bool some_tets_are_flat_ = false;  ///< in every map of the space: there is no valid one
   double edge_ = 1;
   std::vector<AxisConstraint> constraints_;
 };
