@@ -37,7 +37,7 @@ std::vector<VertexId> ends_on_curves(const RepairState& state) {
 
 bool free_arc_end(RepairState& local, VertexId v) {
   RepairState trial = local;
-  if (!detach_to_boundary(trial, v, Flow::parallel)) return false;
+  if (!detach_to_boundary(trial, v, Flow::through)) return false;
   for (VertexId w : vertices_of(trial.mesh, vertex_star(trial.mesh, v)))
     if (needs_repair(trial, w)) return false;
   local = std::move(trial);

@@ -12,7 +12,7 @@ namespace hexfield {
 std::vector<VertexId> ends_on_curves(const RepairState& state);
 
 /// Moves the end of the arc off the curve into the feature face that it is perpendicular to (DT1 of a
-/// boundary-truncated sector with reversed flow), so that curve and arc get coordinates of their own. Editable must be
+/// boundary-truncated sector), so that curve and arc get coordinates of their own. Editable must be
 /// all tets that touch the tets at v. False when there is no such face or a vertex there would need repair; `local`
 /// is then as it was.
 bool free_arc_end(RepairState& local, VertexId v);
