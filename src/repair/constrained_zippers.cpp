@@ -145,19 +145,36 @@ bool unzip_along_guide(RepairState& state, VertexId v, const EdgeKey& edge, cons
   return strip && zip_strip(state, *strip, {strip->start, octahedral::identity}, -code, options);
 }
 
+namespace {
+
+bool on_feature_curve(const RepairState& state, VertexId v) {
+  return std::ranges::any_of(edges_at(state.mesh, v),
+                             [&](const EdgeKey& e) { return state.features.edges.contains(e); });
+}
+
+bool repair_node(RepairState& state, VertexId v, const ZipperOptions& options) {
+  if (unzip_sector_transversally(state, v, options)) return true;
+  for (const EdgeKey& edge : singular_edges_at(state, v))
+    if (!state.features.edges.contains(edge) && unzip_along_guide(state, v, edge, options)) return true;
+  return false;
+}
+
+}  // namespace
+
 int repair_constrained_zipper_nodes(RepairState& state, const ZipperOptions& options) {
   std::set<VertexId> nodes;
   for (const auto& [edge, code] : state.codes)
     for (VertexId v : edge)
-      if (kind_of(state, v) == NodeKind::zipper && on_boundary(state.mesh, v) && !is_free_zipper(state, v))
+      if (kind_of(state, v) == NodeKind::zipper && on_boundary(state.mesh, v) && on_feature_curve(state, v))
         nodes.insert(v);
   int repaired = 0;
   for (VertexId v : nodes) {
     if (kind_of(state, v) != NodeKind::zipper) continue;
-    bool done = unzip_sector_transversally(state, v, options);
-    for (const EdgeKey& edge : singular_edges_at(state, v))
-      if (!done && !state.features.edges.contains(edge)) done = unzip_along_guide(state, v, edge, options);
-    repaired += done ? 1 : 0;
+    // Its way may lead anywhere, so all is copied: splits of ways that fail would add up from pass to pass.
+    RepairState trial = state;
+    if (!repair_node(trial, v, options)) continue;
+    state = std::move(trial);
+    ++repaired;
   }
   return repaired;
 }
