@@ -22,7 +22,7 @@ class SheetState {
 
   struct Found {
     std::vector<SheetCandidate> sheets;  ///< best first, each once
-    bool complete = true;                ///< no limit was hit
+    bool complete = true;                ///< no limit was hit by the search for sheets without bends
     std::int64_t steps = 0;
   };
   /// Sheets through vertices of positive measure that change the sum by at most `most`, from the first `targets`
@@ -34,7 +34,12 @@ class SheetState {
     int measure_after;
     std::vector<int> cycle;
   };
-  std::vector<Seed> seeds_at(int v, int max_valence, int most, NodeMeasure& measure) const;
+  /// Clears `complete` when cycles were left out.
+  std::vector<Seed> seeds_at(int v, int max_valence, int most, NodeMeasure& measure, bool& complete) const;
+  /// Vertices with positive measure, nodes first, the largest measure first.
+  std::vector<int> vertices_by_measure() const;
+  /// Keeps the best sheets that change the measure by at most `most` and can be inflated, each once.
+  void keep_possible(std::vector<SheetCandidate>& sheets, int most, std::size_t keep) const;
   /// Regular edges at which a sheet with this cycle at v has to bend: from v straight on to the boundary or the
   /// next singular vertex. Ascending.
   std::vector<int> bends_of(int v, const std::vector<int>& cycle) const;
