@@ -88,7 +88,7 @@ void add_decompose(CLI::App& app, Action& action) {
   command->add_option("-o,--output", line->output, "Mesh file to write, or a directory for it")->required();
   command->add_option("--search", line->search, "exact, or greedy as in the paper (exact)")
       ->check(CLI::IsMember({"exact", "greedy"}));
-  command->add_option("--budget", line->options.budget, "Patches tried in all; 0 only improves the mesh (20000000)");
+  command->add_option("--budget", line->options.budget, "Patches tried in all; 0 only improves the mesh (5000000)");
   command->add_option("--width", line->options.width, "Sequences followed side by side (by size)");
   command->add_option("--final-valence", line->options.final_valence, "Highest valence of curves that may stay (5)")
       ->check(CLI::Range(5, 6));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hexfield/hex/sheet.hpp"
+#include "sheet_program.hpp"
 
 namespace hexfield::hex {
 namespace {
@@ -11,8 +12,9 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int most_edges = 14;  // of a vertex all of whose cycles are tried
 constexpr int longest_cycle = 8;
-constexpr std::size_t most_seeds = 400;  // per vertex
-constexpr int most_bent_seeds = 24;      // per vertex, tried only where no straight sheet is found
+constexpr std::size_t most_seeds = 400;   // per vertex
+constexpr std::size_t few_vertices = 12;  // of positive measure: each is searched from on its own
+constexpr int most_bent_seeds = 24;       // per vertex, tried only where no straight sheet is found
 
 std::uint64_t mix(std::uint64_t x) {
   x ^= x >> 33U;
@@ -159,47 +161,72 @@ SheetState::Found SheetState::sheets(const DecomposeOptions& options, int most, 
   const std::vector<int> features = feature_quads_of(mesh_, complex_);
   const QuadClasses classes = build_quad_classes(complex_, features);
   const int max_valence = std::max(options.max_valence, max_valence_);
-  const SearchLimits limits{max_valence, options.seed_budget, 400};
-  SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits);
-  Found found;
-  found.complete = options.search == DecomposeOptions::Search::exact;
-  const auto follow = [&](SheetSearch& through, const std::vector<int>& quads, std::vector<SheetCandidate>& out) {
-    if (options.search == DecomposeOptions::Search::exact) {
-      found.complete = through.find(quads, out) && found.complete;
-      return;
-    }
-    SheetCandidate sheet{through.propagate_greedily(quads), 0};
-    if (!sheet.quads.empty() && through.evaluate(sheet.quads, sheet.change)) out.push_back(std::move(sheet));
+  const bool exact = options.search == DecomposeOptions::Search::exact;
+  const std::vector<int> vertices = vertices_by_measure();
+  SheetProgram::Result all;
+  const auto solve_for_all = [&] {
+    all = SheetProgram(mesh_, complex_, classes, spheres_, measure, max_valence).solve(options.branches);
   };
-  for (int v : vertices_by_measure()) {
-    std::vector<SheetCandidate> here;
-    const std::vector<Seed> seeds = seeds_at(v, max_valence, most, measure, found.complete);
-    for (const Seed& seed : seeds)
-      if (bends_of(v, seed.cycle).empty()) follow(search, quads_of(v, seed.cycle), here);
-    keep_possible(here, most, keep);
-    const bool complete = found.complete;  // that is, without bends
-    int bent = 0;
-    for (const Seed& seed : seeds) {
-      const std::vector<int> bends = bends_of(v, seed.cycle);
-      if (!here.empty() || bends.empty() || ++bent > most_bent_seeds) continue;
-      const QuadClasses bent_classes = build_quad_classes(complex_, features, bends);
-      SheetSearch bent_search(mesh_, complex_, bent_classes, spheres_, measure, limits);
-      follow(bent_search, quads_of(v, seed.cycle), here);
+  const bool by_seeds = !exact || most >= 0 || vertices.size() <= few_vertices;
+  if (!by_seeds) solve_for_all();
+  Found found;
+  if (by_seeds) {
+    const SearchLimits limits{max_valence, options.seed_budget, 400};
+    SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits);
+    found.complete = exact;
+    for (int v : vertices) {
+      std::vector<SheetCandidate> here;
+      for (const Seed& seed : seeds_at(v, max_valence, most, measure, found.complete)) {
+        if (!bends_of(v, seed.cycle).empty()) continue;
+        if (exact) {
+          found.complete = search.find(quads_of(v, seed.cycle), here) && found.complete;
+        } else if (SheetCandidate sheet{search.propagate_greedily(quads_of(v, seed.cycle)), 0};
+                   !sheet.quads.empty() && search.evaluate(sheet.quads, sheet.change)) {
+          here.push_back(std::move(sheet));
+        }
+      }
       keep_possible(here, most, keep);
-      found.steps += bent_search.steps_taken();
+      found.sheets.insert(found.sheets.end(), here.begin(), here.end());
+      if ((!here.empty() && --targets == 0) || search.steps_taken() > options.budget / 5) break;
     }
-    found.complete = complete;
-    if (here.empty()) continue;
-    found.sheets.insert(found.sheets.end(), here.begin(), here.end());
-    if (--targets == 0) break;
+    found.steps = search.steps_taken();
+    found.complete = found.complete && found.steps <= options.budget / 5;
+    if (exact && most < 0 && found.sheets.empty() && !found.complete) solve_for_all();
   }
-  found.steps += search.steps_taken();
+  found.sheets.insert(found.sheets.end(), all.sheets.begin(), all.sheets.end());
+  if (found.sheets.empty()) found.complete = found.complete && by_seeds ? found.complete : all.complete;
+  if (found.sheets.empty() && exact) add_bent_sheets(options, most, keep, measure, found);
   std::sort(found.sheets.begin(), found.sheets.end());
   found.sheets.erase(std::unique(found.sheets.begin(), found.sheets.end(),
                                  [](const SheetCandidate& a, const SheetCandidate& b) { return a.quads == b.quads; }),
                      found.sheets.end());
   if (found.sheets.size() > keep) found.sheets.resize(keep);
   return found;
+}
+
+void SheetState::add_bent_sheets(const DecomposeOptions& options, int most, std::size_t keep, NodeMeasure& measure,
+                                 Found& found) const {
+  const std::vector<int> features = feature_quads_of(mesh_, complex_);
+  const int max_valence = std::max(options.max_valence, max_valence_);
+  const SearchLimits limits{max_valence, options.seed_budget, 400};
+  bool all_seeds = true;
+  for (int v : vertices_by_measure()) {
+    int bent = 0;
+    for (const Seed& seed : seeds_at(v, max_valence, most, measure, all_seeds)) {
+      const std::vector<int> bends = bends_of(v, seed.cycle);
+      if (bends.empty()) continue;
+      if (++bent > most_bent_seeds || found.steps > options.budget) break;
+      const QuadClasses classes = build_quad_classes(complex_, features, bends);
+      SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits);
+      std::vector<SheetCandidate> here;
+      search.find(quads_of(v, seed.cycle), here);
+      keep_possible(here, most, keep);
+      found.steps += search.steps_taken();
+      found.sheets.insert(found.sheets.end(), here.begin(), here.end());
+      if (!here.empty()) break;
+    }
+    if (!found.sheets.empty()) return;
+  }
 }
 
 }  // namespace hexfield::hex

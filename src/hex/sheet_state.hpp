@@ -25,8 +25,9 @@ class SheetState {
     bool complete = true;                ///< no limit was hit by the search for sheets without bends
     std::int64_t steps = 0;
   };
-  /// Sheets through vertices of positive measure that change the sum by at most `most`, from the first `targets`
-  /// vertices that have any.
+  /// Sheets that change the sum of measures by at most `most`: from seeds at the first `targets` vertices that have
+  /// any, or, where many vertices have a measure, those that lower it most together. Where there are none, sheets that
+  /// bend at the vertex they start from.
   Found sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep, NodeMeasure& measure) const;
 
  private:
@@ -34,6 +35,8 @@ class SheetState {
     int measure_after;
     std::vector<int> cycle;
   };
+  void add_bent_sheets(const DecomposeOptions& options, int most, std::size_t keep, NodeMeasure& measure,
+                       Found& found) const;
   /// Clears `complete` when cycles were left out.
   std::vector<Seed> seeds_at(int v, int max_valence, int most, NodeMeasure& measure, bool& complete) const;
   /// Vertices with positive measure, nodes first, the largest measure first.

@@ -90,7 +90,7 @@ std::string decompressed(Source& source, const VtuEncoding& encoding) {
   if (blocks == 0) return {};
   const std::uint64_t full = size_of(source, encoding);
   const std::uint64_t last = size_of(source, encoding);
-  if (blocks > source.remaining() || full > best_compression * (source.remaining() + 1) || last > full)
+  if (blocks > source.remaining() || last > full)
     source.refuse(fmt::format("{} blocks of {} bytes, the last of {}, are impossible", blocks, full, last));
   std::vector<std::uint64_t> sizes(blocks);
   for (std::uint64_t& size : sizes) size = size_of(source, encoding);

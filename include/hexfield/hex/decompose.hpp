@@ -13,13 +13,15 @@ namespace hexfield {
 /// Parameters of decompose().
 struct DecomposeOptions {
   /// exact: all sheets through a seed by backtracking over classes of quads (spec-sheets 6.2), the best of many seeds,
-  /// several sequences side by side. greedy: Algorithms 1 and 2 of the paper, one sheet per seed.
+  /// several sequences side by side; with many nodes, the best sheets of the mesh by an integer program. greedy:
+  /// Algorithms 1 and 2 of the paper, one sheet per seed.
   enum class Search { exact, greedy } search = Search::exact;
   int final_valence = 5;             ///< curves up to this valence (5 or 6) may remain
   int max_valence = 6;               ///< of edges on the way, unless the mesh has higher ones
   int width = 0;                     ///< sequences followed side by side; 0: by the size of the mesh
-  std::int64_t budget = 20000000;    ///< classes tried in all before the search ends
+  std::int64_t budget = 5000000;     ///< classes tried in all before the search ends
   std::int64_t seed_budget = 20000;  ///< classes tried for one seed
+  int branches = 2000;               ///< of the integer program for all sheets at once
 };
 
 struct DecomposeStep {
