@@ -40,6 +40,7 @@ class Decomposer {
   Decomposition run() {
     std::vector<hex::SheetState> beam;
     beam.emplace_back(mesh_, std::vector<DecomposeStep>{}, measure_);
+    if (beam[0].has_many_nodes()) width_ = 1;  // each state takes an integer program
     Decomposition out;
     out.measure_before = beam[0].measure();
     best_steps_ = {};

@@ -12,9 +12,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int most_edges = 14;  // of a vertex all of whose cycles are tried
 constexpr int longest_cycle = 8;
-constexpr std::size_t most_seeds = 400;   // per vertex
-constexpr std::size_t few_vertices = 12;  // of positive measure: each is searched from on its own
-constexpr int most_bent_seeds = 24;       // per vertex, tried only where no straight sheet is found
+constexpr std::size_t most_seeds = 400;  // per vertex
+constexpr int most_bent_seeds = 24;      // per vertex, tried only where no straight sheet is found
 
 std::uint64_t mix(std::uint64_t x) {
   x ^= x >> 33U;

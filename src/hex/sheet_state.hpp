@@ -17,6 +17,8 @@ class SheetState {
   const HexComplex& complex() const { return complex_; }
   const std::vector<DecomposeStep>& steps() const { return steps_; }
   int measure() const { return total_; }
+  /// More vertices have a measure than are searched from one by one.
+  bool has_many_nodes() const { return vertices_by_measure().size() > few_vertices; }
   /// Equal for isomorphic meshes.
   std::uint64_t hash() const;
 
@@ -31,6 +33,7 @@ class SheetState {
   Found sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep, NodeMeasure& measure) const;
 
  private:
+  static constexpr std::size_t few_vertices = 12;
   struct Seed {
     int measure_after;
     std::vector<int> cycle;
