@@ -26,6 +26,7 @@ struct RunLine {
   std::string to;
   bool resume = false;
   bool check = false;
+  bool decompose = false;
   bool verbose = false;
   bool quiet = false;
 };
@@ -62,6 +63,7 @@ RunOptions options_of(const RunLine& line) {
   options.to = line.to.empty() ? "" : resolve_stage(line.to);
   options.resume = line.resume;
   options.check = options.check || line.check;
+  options.decompose = options.decompose || line.decompose;
   require_formats(options.formats);
   return options;
 }
@@ -103,6 +105,7 @@ void add_run(CLI::App& app, Action& action) {
   add_keyed(*command, *line, "--feature-angle", "feature_angle", "Sharp edges where the input has no tags (70)", "DEG");
   add_keyed(*command, *line, "--tries", "tries", "Settings of the field repair to try before giving up (4)", "K");
   add_keyed(*command, *line, "--seed", "seed", "Of anything random (0)", "S");
+  command->add_flag("--decompose", line->decompose, "Singular nodes into curves, where that raises the quality");
   command->add_flag("--check", line->check, "Check every value between the stages");
   auto* verbose = command->add_flag("-v,--verbose", line->verbose, "Say more");
   command->add_flag("-q,--quiet", line->quiet, "Say nothing but warnings and errors")->excludes(verbose);

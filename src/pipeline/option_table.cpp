@@ -80,6 +80,8 @@ OptionTable::OptionTable(RunOptions& o) {
       {"improve.smoothing_rounds", "improve", &o.improve.smoothing_rounds, 0},
       {"improve.shape_weight", "improve", &o.improve.shape_weight, 0},
       {"improve.good_enough", "improve", &o.improve.good_enough, 0, 1},
+      {"improve.maximise_steps", "improve", &o.improve.maximise_steps, 0},
+      {"decompose", "improve", &o.decompose},
       {"formats", "", &o.formats},
       {"threads", "", &o.threads, 0, 4096},
       {"time_limit", "", &o.time_limit, 0},

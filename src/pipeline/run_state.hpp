@@ -28,6 +28,17 @@ struct Culprits {
   bool empty() const { return tets.empty() && edges.empty() && nodes.empty() && hexes.empty() && places.empty(); }
 };
 
+/// What `decompose` did to the hex mesh.
+struct DecomposeReport {
+  bool tried = false;
+  bool taken = false;  ///< the smallest scaled Jacobian rose, and every feature is kept
+  bool proven = false;
+  int sheets = 0;
+  int nodes_before = 0, nodes_after = 0;
+  int measure_before = 0, measure_after = 0;
+  double min_before = 0, min_after = 0;  ///< scaled Jacobian
+};
+
 /// Everything a run has reached. The values are complete on rank 0 and empty elsewhere.
 struct RunState {
   Team& team;
@@ -42,6 +53,7 @@ struct RunState {
   SeamlessResult seamless{};
   IgmResult igm{};
   HexMesh hexes{};
+  DecomposeReport decomposition{};
   Culprits culprits{};
   nlohmann::ordered_json tries = nlohmann::ordered_json::array();  ///< those that failed (rank 0)
   std::string sentence{};           ///< the verdict when every stage has succeeded (rank 0)

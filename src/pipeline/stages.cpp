@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "decompose_result.hpp"
 #include "hexfield/base/error.hpp"
 #include "hexfield/field/matchings.hpp"
 #include "hexfield/field/singularity_graph.hpp"
@@ -202,11 +203,24 @@ Stage improve_stage() {
   stage.name = "improve";
   stage.compute = [](RunState& state, const std::string&, Progress& progress) {
     state.team.on_root([&] {
-      improve_hex_mesh(state.hexes, state.field.mesh, state.field.features, state.options.improve,
-                       state.safe_points.control_on_root(progress));
+      const Control control = state.safe_points.control_on_root(progress);
+      improve_hex_mesh(state.hexes, state.field.mesh, state.field.features, state.options.improve, control);
+      if (state.options.decompose) decompose_result(state, control);
     });
   };
-  stage.judge = judge_hexes;
+  stage.pack = [](const RunState& state) {
+    NamedArrays arrays = pack(state.hexes);
+    pack_decomposition(state.decomposition, arrays);
+    return arrays;
+  };
+  stage.unpack = [](RunState& state, const NamedArrays& arrays) {
+    state.hexes = unpack_hex_mesh(arrays);
+    state.decomposition = unpack_decomposition(arrays);
+  };
+  stage.judge = [](RunState& state) {
+    state.report["decomposition"] = decomposition_json(state.decomposition);
+    judge_hexes(state);
+  };
   return stage;
 }
 

@@ -16,6 +16,7 @@ if(TARGET hexfield)
   foreach(np 1 2)
     hexfield_program_test(signals_np${np} signals ${np} 600 ${np})
   endforeach()
+  hexfield_program_test(hex_meshes hex_meshes 1 1200)
   hexfield_program_test(kill_resume kill_resume 2 900)
   # Twenty kills over a run of a minute: only where it is asked for.
   option(HEXFIELD_KILL_TESTS "Test twenty random kills over a long run" OFF)

@@ -24,6 +24,7 @@ struct RunOptions {
   SeamlessOptions seamless;
   IgmOptions igm;
   ImproveOptions improve;
+  bool decompose = false;  ///< pull the singular nodes of the hex mesh apart where that raises its quality
 
   std::string from;                            ///< compute this stage and all that follow again; empty: no such wish
   std::string to;                              ///< end after this stage; empty: after the last
