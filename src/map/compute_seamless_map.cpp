@@ -69,7 +69,7 @@ class Stage {
         keep_better(best, judged(untangle(problem, best.unknowns, {}, edge_, untangling_rounds, monitor_)));
     }
     if (best.report.inverted.empty()) {
-      const Candidate polished = judged(polish(problem, best.unknowns));
+      const Candidate polished = judged(polish(problem, best.unknowns, newton_memory_));
       if (!best.better_than(polished)) best = polished;
     }
     return finish(best);
@@ -87,11 +87,14 @@ class Stage {
   // The iterate of an interrupted polish, if there is one.
   bool restore(const MapProblem& problem, Candidate& best) {
     if (!control_.restore_iterate) return false;
-    const std::optional<std::vector<double>> iterate = control_.restore_iterate("seamless");
+    std::optional<std::vector<double>> iterate = control_.restore_iterate("seamless");
+    if (iterate) newton_memory_ = take_memory(*iterate);
     bool found = iterate.has_value() && (!root() || iterate->size() == space_.num_unknowns());
     broadcast(problem.comm(), found);
     if (found) best = judged(*iterate);
-    return found && best.report.inverted.empty();
+    if (found && best.report.inverted.empty()) return true;
+    newton_memory_.clear();
+    return false;
   }
 
   static void keep_better(Candidate& best, Candidate other) {
@@ -162,7 +165,8 @@ class Stage {
     return problem.gather(y.get(), {});
   }
 
-  std::vector<double> polish(const MapProblem& problem, const std::vector<double>& start) {
+  std::vector<double> polish(const MapProblem& problem, const std::vector<double>& start,
+                             const std::vector<double>& memory) {
     solve::TetEnergy energy(solve::TetEnergy::Kind::symmetric_dirichlet);
     problem.add_elements(energy, problem.volume_weights(), problem.uniform_frames(edge_), {});
     const VecOwner y(problem.make_vector(start, false));
@@ -172,7 +176,8 @@ class Stage {
     newton.decrease_tolerance = 1e-12;
     const solve::EnergyTerm* terms[] = {&energy};
     if (!std::isfinite(solve::evaluate(comm_, terms, y.get()))) return start;
-    monitor_.minimise(comm_, terms, y.get(), newton, "seamless map", [&] { return problem.gather(y.get(), {}); });
+    monitor_.minimise(
+        comm_, terms, y.get(), newton, "seamless map", [&] { return problem.gather(y.get(), {}); }, memory);
     return problem.gather(y.get(), {});
   }
 
@@ -218,6 +223,7 @@ class Stage {
   SolveMonitor monitor_;
   ConformingSpace space_;
   double edge_ = 1;
+  std::vector<double> newton_memory_;  // rank 0: of an interrupted polish
   std::vector<AxisConstraint> constraints_;
 };
 
