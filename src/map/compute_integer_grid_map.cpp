@@ -84,6 +84,15 @@ std::optional<Rounded> round_near(const TetMesh& mesh, const Seamless& s, double
   return best;
 }
 
+// Where the shortest length is that the integers must keep.
+std::vector<Vec3> tightest_place(const TetMesh& mesh, const Seamless& s) {
+  const std::vector<Spacing> spacings = required_spacings(mesh, s.space, s.alignments, s.unknowns);
+  const auto shortest = std::min_element(spacings.begin(), spacings.end(),
+                                         [](const Spacing& a, const Spacing& b) { return a.length < b.length; });
+  if (shortest == spacings.end()) return {};
+  return {mesh.point(shortest->where)};
+}
+
 std::string reason_of(const IntegerOutcome& outcome, const MapReport& report) {
   if (!outcome.reached) return "The integer coordinates that rounding chose cannot be reached without inverting a tet.";
   if (!report.inverted.empty()) return "The integer-grid map has inverted tets.";
@@ -134,6 +143,7 @@ class Stage {
         if (!root()) return;
         const std::optional<Rounded> best = choose(scale);
         found = best.has_value();
+        if (!found) result_.where = tightest_place(mesh_, seamless_);
         if (best) rounded = *best;
         scale = std::max(scale, rounded.scale);
       });

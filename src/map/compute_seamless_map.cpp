@@ -63,7 +63,7 @@ class Stage {
       if (!best.report.valid() && !some_tets_are_flat_) try_integrable_frames(problem, best);
     }
     if (best.report.inverted.empty()) {
-      const Candidate polished = judged(polish(problem, best.unknowns));
+      const Candidate polished = judged(polish(problem, best.unknowns, newton_memory_));
       if (!best.better_than(polished)) best = polished;
     }
     return finish(best);
@@ -82,11 +82,14 @@ class Stage {
   // The iterate of an interrupted polish, if there is one.
   bool restore(const MapProblem& problem, Candidate& best) {
     if (!control_.restore_iterate) return false;
-    const std::optional<std::vector<double>> iterate = control_.restore_iterate("seamless");
+    std::optional<std::vector<double>> iterate = control_.restore_iterate("seamless");
+    if (iterate) newton_memory_ = take_memory(*iterate);
     bool found = iterate.has_value() && (!root() || iterate->size() == space_.num_unknowns());
     broadcast(problem.comm(), found);
     if (found) best = judged(*iterate);
-    return found && best.report.inverted.empty();
+    if (found && best.report.inverted.empty()) return true;
+    newton_memory_.clear();
+    return false;
   }
 
   static void keep_better(Candidate& best, Candidate other) {
@@ -160,7 +163,8 @@ class Stage {
     return problem.gather(y.get(), {});
   }
 
-  std::vector<double> polish(const MapProblem& problem, const std::vector<double>& start) {
+  std::vector<double> polish(const MapProblem& problem, const std::vector<double>& start,
+                             const std::vector<double>& memory) {
     solve::TetEnergy energy(solve::TetEnergy::Kind::symmetric_dirichlet);
     problem.add_elements(energy, problem.volume_weights(), problem.uniform_frames(edge_), {});
     const VecOwner y(problem.make_vector(start, false));
@@ -170,7 +174,8 @@ class Stage {
     newton.decrease_tolerance = 1e-12;
     const solve::EnergyTerm* terms[] = {&energy};
     if (!std::isfinite(solve::evaluate(comm_, terms, y.get()))) return start;
-    monitor_.minimise(comm_, terms, y.get(), newton, "seamless map", [&] { return problem.gather(y.get(), {}); });
+    monitor_.minimise(
+        comm_, terms, y.get(), newton, "seamless map", [&] { return problem.gather(y.get(), {}); }, memory);
     return problem.gather(y.get(), {});
   }
 
@@ -217,6 +222,7 @@ class Stage {
   ConformingSpace space_;
   bool some_tets_are_flat_ = false;  ///< in every map of the space: there is no valid one
   double edge_ = 1;
+  std::vector<double> newton_memory_;  // rank 0: of an interrupted polish
   std::vector<AxisConstraint> constraints_;
 };
 

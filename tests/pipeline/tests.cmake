@@ -18,10 +18,12 @@ if(TARGET hexfield)
   endforeach()
   hexfield_program_test(hex_meshes hex_meshes 1 1200)
   hexfield_program_test(kill_resume kill_resume 2 900)
-  # Twenty kills over a run of a minute: only where it is asked for.
-  option(HEXFIELD_KILL_TESTS "Test twenty random kills over a long run" OFF)
+  # Twenty kills over a run of a minute, and ten inside a repair: only where it is asked for.
+  option(HEXFIELD_KILL_TESTS "Test many random kills over long runs" OFF)
   if(HEXFIELD_KILL_TESTS)
     hexfield_program_test(twenty_kills kill_resume 3 7200 --kills 20 --cells 16 --hexes 200000)
-    set_tests_properties(pipeline_twenty_kills PROPERTIES LABELS kills)
+    hexfield_program_test(ten_kills_in_repair kill_resume 3 3600 --kills 10 --stage repair
+      --mesh ${PROJECT_SOURCE_DIR}/tests/models/rod_through_box.geo)
+    set_tests_properties(pipeline_twenty_kills pipeline_ten_kills_in_repair PROPERTIES LABELS kills)
   endif()
 endif()
