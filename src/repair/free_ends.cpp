@@ -12,11 +12,12 @@ namespace {
 
 struct EdgesAt {
   std::vector<EdgeCode> curve;  // codes of feature edges
-  int arcs = 0;                 // other singular edges
+  std::vector<EdgeKey> arcs;    // other singular edges
 };
 
-bool is_end_on_curve(const EdgesAt& edges) {
-  return edges.arcs == 1 && edges.curve.size() == 2 && edges.curve[0] == edges.curve[1];
+bool is_end_on_curve(const TetMesh& mesh, const EdgesAt& edges) {
+  if (edges.arcs.size() != 1 || edges.curve.size() != 2 || edges.curve[0] != edges.curve[1]) return false;
+  return ring_of(mesh, edges.arcs[0][0], edges.arcs[0][1]).closed;
 }
 
 }  // namespace
@@ -28,10 +29,10 @@ std::vector<VertexId> ends_on_curves(const RepairState& state) {
   for (const auto& entry : state.codes)
     if (!state.features.edges.contains(entry.first))
       for (VertexId v : entry.first)
-        if (const auto found = at.find(v); found != at.end()) ++found->second.arcs;
+        if (const auto found = at.find(v); found != at.end()) found->second.arcs.push_back(entry.first);
   std::vector<VertexId> ends;
   for (const auto& [v, edges] : at)
-    if (is_end_on_curve(edges) && !state.features.points.contains(v)) ends.push_back(v);
+    if (is_end_on_curve(state.mesh, edges) && !state.features.points.contains(v)) ends.push_back(v);
   return ends;
 }
 
