@@ -121,7 +121,8 @@ def singular_graph(hexes):
     for v, around in at.items():
         if len(around) == 2 and v not in skin:
             parent[find(around[0])] = find(around[1])
-    return sum(len(around) > 2 and v not in skin for v, around in at.items()), len({find(k) for k in range(len(singular))})
+    nodes = sum(len(around) > 2 and v not in skin for v, around in at.items())
+    return nodes, len({find(k) for k in range(len(singular))})
 
 
 class Features:
@@ -366,9 +367,9 @@ def split_lattice(n=2):
 
 
 def meshes():
-    return {"swept_gear": swept_gear, "swept_triangulation": swept_triangulation, "swept_hexagon": swept_hexagon, "mapped_ball": mapped_ball,
-            "mapped_twisted_bar": mapped_twisted_bar, "blocks_frame": blocks_frame, "blocks_u": blocks_u, "blocks_sponge": blocks_sponge, "blocks_lattice": blocks_lattice,
-            "blocks_random": blocks_random, "split_lattice": split_lattice}
+    builders = (swept_gear, swept_triangulation, swept_hexagon, mapped_ball, mapped_twisted_bar, blocks_frame, blocks_u,
+                blocks_sponge, blocks_lattice, blocks_random, split_lattice)
+    return {build.__name__: build for build in builders}
 
 
 def main():
