@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hex_meshes import blocks_frame, grid, swept_hexagon
+from hex_meshes import blocks_u, grid, refined, swept_hexagon
 
 # Triangles around each node, counter-clockwise seen from outside.
 NODES = {
@@ -86,33 +86,6 @@ def cone(words):
     return np.array(points), np.array(hexes)
 
 
-def refine(points, hexes):
-    """Every hex into eight."""
-    points, index, out = list(points), {}, []
-
-    def middle(corners):
-        key = tuple(sorted({int(v) for v in corners}))
-        if len(key) == 1:
-            return key[0]
-        if key not in index:
-            index[key] = len(points)
-            points.append(np.mean([points[v] for v in key], axis=0))
-        return index[key]
-
-    bits = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
-    for cell in hexes:
-        at = dict(zip(bits, cell))
-        for corner in bits:
-            fine = []
-            for step in bits:
-                # Halfway positions 0, 1, 2 along each axis of this child's corner.
-                place = [c + s for c, s in zip(corner, step)]
-                choices = [(0,) if p == 0 else (1,) if p == 2 else (0, 1) for p in place]
-                fine.append(middle(at[(x, y, z)] for x in choices[0] for y in choices[1] for z in choices[2]))
-            out.append(fine)
-    return np.array(points), np.array(out)
-
-
 def write(path, points, hexes):
     import meshio
 
@@ -125,13 +98,13 @@ def meshes():
         yield name, *cone(words), 0
     cube = grid(4)
     yield "padded cube", *cube, 1
-    yield "padded tetrahedron", *refine(*cone(NODES["(4,0,0)"])), 1
-    yield "padded prism", *refine(*cone("134 145 153 243 254 235")), 1
+    yield "padded tetrahedron", *refined(*cone(NODES["(4,0,0)"])), 1
+    yield "padded prism", *refined(*cone("134 145 153 243 254 235")), 1
     ball = cube[0] / np.maximum(np.linalg.norm(cube[0], axis=1, keepdims=True), 1)
     yield "sphere", ball * 1.0, cube[1], 1
     yield "ellipsoid", ball * [2.0, 1.0, 1.0], cube[1], 1
     yield "12 nodes, 36 curves (as G1)", *swept_hexagon(), 0
-    yield "16 nodes, 40 curves (as G2)", *blocks_frame(), 0
+    yield "16 nodes, 40 curves (as G2)", *blocks_u(), 0
 
 
 def decompose(program, mesh, output, extra):

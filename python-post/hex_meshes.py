@@ -88,6 +88,17 @@ def padded(points, hexes, depth=0.4):
     return np.concatenate([inner, points[skin]]), np.concatenate([hexes, np.concatenate([quads, twin[quads]], axis=1)])
 
 
+def refined(points, hexes):
+    """Every hex in eight."""
+    steps = np.array([(x, y, z) for x in (0, 0.5, 1) for y in (0, 0.5, 1) for z in (0, 0.5, 1)])
+    weights = np.prod(np.where(CORNERS[None] == 1, steps[:, None], 1 - steps[:, None]), axis=2)  # (27, 8)
+    fine = np.einsum("sk,hkx->hsx", weights, points[hexes])
+    local = np.array([[9 * (i + a) + 3 * (j + b) + (k + c) for a, b, c in CORNERS]
+                      for i, j, k in CORNERS])
+    cells = (27 * np.arange(len(hexes))[:, None, None] + local[None]).reshape(-1, 8)
+    return welded(fine.reshape(-1, 3), cells)
+
+
 def singular_graph(hexes):
     """Numbers of nodes and curves."""
     edges, index, valence = np.unique(np.sort(hexes[:, EDGES].reshape(-1, 2), axis=1), axis=0, return_inverse=True,
@@ -110,7 +121,8 @@ def singular_graph(hexes):
     for v, around in at.items():
         if len(around) == 2 and v not in skin:
             parent[find(around[0])] = find(around[1])
-    return sum(len(around) > 2 and v not in skin for v, around in at.items()), len({find(k) for k in range(len(singular))})
+    nodes = sum(len(around) > 2 and v not in skin for v, around in at.items())
+    return nodes, len({find(k) for k in range(len(singular))})
 
 
 class Features:
@@ -222,7 +234,7 @@ def swept_gear(teeth=8):
         turned = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
         return lambda p: np.column_stack([p @ turned.T, np.full(len(p), z)])
 
-    return padded(*sweep(points, quads, [station(0.5 * s, 0.08 * s) for s in range(4)]))
+    return refined(*padded(*sweep(points, quads, [station(0.5 * s, 0.08 * s) for s in range(4)])))
 
 
 def swept_triangulation():
@@ -254,7 +266,12 @@ def swept_hexagon():
 
 def blocks_frame():
     """A square frame: 16 nodes and 40 curves."""
-    return padded(*voxels({(x, y, z) for x in range(3) for y in range(3) for z in range(2) if (x, y) != (1, 1)}))
+    return refined(*padded(*voxels({(x, y, z) for x in range(3) for y in range(3) for z in range(2) if (x, y) != (1, 1)})))
+
+
+def blocks_u():
+    """A prism over the letter U: 16 nodes and 40 curves."""
+    return padded(*voxels({(x, y, z) for x in range(6) for y in range(4) for z in range(2) if x not in (2, 3) or y < 2}))
 
 
 def mapped_ball(n=4):
@@ -267,25 +284,25 @@ def mapped_ball(n=4):
 
 
 def mapped_twisted_bar():
-    """A bar of square section with a hole, twisted by a right angle."""
+    """A bar of square section with a hole, twisted by half a right angle."""
     points, hexes = voxels({(x, y, z) for x in range(3) for y in range(3) for z in range(6) if (x, y) != (1, 1)})
     x, y, z = (points - [1.5, 1.5, 0]).T
-    angle = np.pi / 2 * z / 6
-    return padded(np.column_stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle), 2 * z]),
-                  hexes)
+    angle = np.pi / 4 * z / 6
+    places = np.column_stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle), 2 * z])
+    return refined(*padded(places, hexes))
 
 
 def blocks_sponge():
     """A cube of 3 x 3 x 3 blocks without its middle column in each direction."""
     cells = {(x, y, z) for x in range(3) for y in range(3) for z in range(3) if [x, y, z].count(1) < 2}
-    return padded(*voxels(cells))
+    return refined(*padded(*voxels(cells)))
 
 
 def blocks_lattice(n=3):
     """A scaffold of bars: blocks at all places with at most one odd coordinate."""
     size = range(2 * n - 1)
     cells = {(x, y, z) for x in size for y in size for z in size if sum(c % 2 for c in (x, y, z)) <= 1}
-    return padded(*voxels(cells))
+    return refined(*padded(*voxels(cells)))
 
 
 def blocks_random(count=60, seed=4):
@@ -300,7 +317,7 @@ def blocks_random(count=60, seed=4):
         if new not in cells and manifold_with(cells, new):
             if scaled_jacobians(*padded(*voxels(cells | {new}), depth=0.25)).min() > 0.05:
                 cells.add(new)
-    return padded(*voxels(cells), depth=0.25)
+    return refined(*padded(*voxels(cells), depth=0.25))
 
 
 def manifold_with(cells, new):
@@ -350,9 +367,9 @@ def split_lattice(n=2):
 
 
 def meshes():
-    return {"swept_gear": swept_gear, "swept_triangulation": swept_triangulation, "swept_hexagon": swept_hexagon, "mapped_ball": mapped_ball,
-            "mapped_twisted_bar": mapped_twisted_bar, "blocks_frame": blocks_frame, "blocks_sponge": blocks_sponge, "blocks_lattice": blocks_lattice,
-            "blocks_random": blocks_random, "split_lattice": split_lattice}
+    builders = (swept_gear, swept_triangulation, swept_hexagon, mapped_ball, mapped_twisted_bar, blocks_frame, blocks_u,
+                blocks_sponge, blocks_lattice, blocks_random, split_lattice)
+    return {build.__name__: build for build in builders}
 
 
 def main():
