@@ -8,6 +8,7 @@
 
 #include "collective.hpp"
 #include "hexfield/base/agree.hpp"
+#include "hexfield/base/exact_sum.hpp"
 #include "hexfield/base/petsc.hpp"
 
 namespace hexfield {
@@ -137,9 +138,8 @@ std::vector<double> MapProblem::volume_weights() const {
 
 std::vector<double> MapProblem::length_weights() const {
   std::vector<double> weights = volumes_;
-  double sum = 0;
-  for (double& w : weights) sum += w = std::cbrt(w);
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  for (double& w : weights) w = std::cbrt(w);
+  const double sum = exact_sum(comm_, weights);
   for (double& w : weights) w /= sum;
   return weights;
 }
