@@ -108,6 +108,13 @@ std::optional<GuidedPath> lay_guided_path(RepairState& state, const FlowPlace& s
 
 namespace {
 
+// Do other than two feature edges meet at v?
+bool is_feature_end(const RepairState& state, VertexId v) {
+  const auto curve = std::ranges::count_if(edges_at(state.mesh, v),
+                                           [&](const EdgeKey& e) { return state.features.edges.contains(e); });
+  return curve != 0 && curve != 2;
+}
+
 std::optional<SurfaceSector> empty_outer_sector(RepairState& state, VertexId v) {
   const OneRing ring(state, v);
   for (const SurfaceSector& sector : surface_sectors(state, ring))
@@ -145,21 +152,39 @@ bool unzip_along_guide(RepairState& state, VertexId v, const EdgeKey& edge, cons
   return strip && zip_strip(state, *strip, {strip->start, octahedral::identity}, -code, options);
 }
 
+namespace {
+
+// A try that fails leaves strips of split tets behind, in which the next one would split more: it gets a copy.
+template <class Operation>
+bool on_a_copy(RepairState& state, const Operation& operation) {
+  RepairState trial = state;
+  if (!operation(trial)) return false;
+  state = std::move(trial);
+  return true;
+}
+
+bool repair_zipper_node(RepairState& state, VertexId v, const ZipperOptions& options) {
+  const NodeKind kind = kind_of(state, v);
+  if (kind != NodeKind::zipper && (kind != NodeKind::invalid || !is_feature_end(state, v))) return false;
+  if (empty_outer_sector(state, v) &&
+      on_a_copy(state, [&](RepairState& trial) { return unzip_sector_transversally(trial, v, options); }))
+    return true;
+  if (kind != NodeKind::zipper) return false;
+  return std::ranges::any_of(singular_edges_at(state, v), [&](const EdgeKey& edge) {
+    return !state.features.edges.contains(edge) &&
+           on_a_copy(state, [&](RepairState& trial) { return unzip_along_guide(trial, v, edge, options); });
+  });
+}
+
+}  // namespace
+
 int repair_constrained_zipper_nodes(RepairState& state, const ZipperOptions& options) {
   std::set<VertexId> nodes;
   for (const auto& [edge, code] : state.codes)
     for (VertexId v : edge)
-      if (kind_of(state, v) == NodeKind::zipper && on_boundary(state.mesh, v) && !is_free_zipper(state, v))
-        nodes.insert(v);
-  int repaired = 0;
-  for (VertexId v : nodes) {
-    if (kind_of(state, v) != NodeKind::zipper) continue;
-    bool done = unzip_sector_transversally(state, v, options);
-    for (const EdgeKey& edge : singular_edges_at(state, v))
-      if (!done && !state.features.edges.contains(edge)) done = unzip_along_guide(state, v, edge, options);
-    repaired += done ? 1 : 0;
-  }
-  return repaired;
+      if (is_defect(state, v) && on_boundary(state.mesh, v) && !is_free_zipper(state, v)) nodes.insert(v);
+  return static_cast<int>(
+      std::ranges::count_if(nodes, [&](VertexId v) { return repair_zipper_node(state, v, options); }));
 }
 
 }  // namespace hexfield
