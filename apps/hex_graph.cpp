@@ -2,9 +2,24 @@
 
 #include <fmt/format.h>
 
+#include "hexfield/hex/check.hpp"
 #include "hexfield/io/debug_vtk.hpp"
 
 namespace hexfield::apps {
+
+void require_good_hexes(const std::string& file, const HexMesh& mesh) {
+  std::vector<Violation> found = check(mesh);
+  if (found.empty()) found = check_for_sheets(mesh, build_hex_complex(mesh));
+  if (found.empty()) return;
+  std::string place;
+  if (!found[0].places.empty()) {
+    const Vec3& p = found[0].places[0];
+    place = fmt::format(" Place: ({:.6g}, {:.6g}, {:.6g}).", p.x(), p.y(), p.z());
+  }
+  throw Error(ExitCode::bad_input,
+              fmt::format("{}: {} defects, the first: {}{}", file, found.size(), found[0].sentence, place),
+              found[0].ids, found[0].places);
+}
 
 void print_graph(const HexSingularGraph& graph) {
   fmt::print("  nodes     {}", graph.nodes.size());

@@ -43,7 +43,7 @@ void print_colours(const char* what, const Features& features) {
   fmt::print("  {:<9} {} in {} colours\n", what, features.size(), counts.size());
 }
 
-void print_info(const TetInput& input) {
+void print_info(const std::string&, const TetInput& input) {
   fmt::print("tet mesh\n  tets      {}\n  vertices  {}\n", input.mesh.num_tets(), input.mesh.num_vertices());
   print_box(input.mesh.points);
   print_colours("points", input.features.points);
@@ -52,13 +52,14 @@ void print_info(const TetInput& input) {
   print_names(input.features.names);
 }
 
-void print_info(const HexMesh& mesh) {
+void print_info(const std::string& file, const HexMesh& mesh) {
   fmt::print("hex mesh\n  hexes     {}\n  vertices  {}\n", mesh.hexes.size(), mesh.points.size());
   print_box(mesh.points);
   print_colours("points", mesh.feature_points);
   print_colours("lines", mesh.feature_lines);
   print_colours("quads", mesh.feature_quads);
   print_names(mesh.names);
+  require_good_hexes(file, mesh);
   print_graph(hex_singular_graph(mesh, build_hex_complex(mesh)));
 }
 
@@ -78,7 +79,7 @@ ExitCode info_command(const std::string& file) {
     if (looks_like_checkpoint(file)) {
       print_info(Checkpoint::open(file));
     } else {
-      std::visit([](const auto& mesh) { print_info(mesh); }, read_any_mesh(file));
+      std::visit([&](const auto& mesh) { print_info(file, mesh); }, read_any_mesh(file));
     }
     return ExitCode::success;
   });

@@ -26,6 +26,7 @@ struct RunLine {
   std::string to;
   bool resume = false;
   bool check = false;
+  bool decompose = false;
   bool verbose = false;
   bool quiet = false;
 };
@@ -62,6 +63,7 @@ RunOptions options_of(const RunLine& line) {
   options.to = line.to.empty() ? "" : resolve_stage(line.to);
   options.resume = line.resume;
   options.check = options.check || line.check;
+  options.decompose = options.decompose || line.decompose;
   require_formats(options.formats);
   return options;
 }
@@ -82,12 +84,17 @@ ExitCode run_command(const RunLine& line) {
 void add_run(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Mesh INPUT with hexahedra: the whole way, or a part of it");
   auto line = std::make_shared<RunLine>();
-  command->add_option("INPUT", line->input, "Tet mesh with tagged features (.vtk, .msh, .mesh)")->required();
+  command
+      ->add_option("INPUT", line->input,
+                   "Tet mesh with tagged features (.vtk, .msh, .mesh), or a seamless map (.hexex)")
+      ->required();
   command->add_option("-o,--output", line->output, "Directory for everything that is written")->required();
   auto* hexes = command->add_option_group("size");
   add_keyed(*hexes, *line, "--target-hexes", "target_hexes", "Wanted number of hexes (10000)", "N");
   add_keyed(*hexes, *line, "--edge-length", "edge_length", "Wanted edge length in input units", "L");
   hexes->require_option(0, 1);
+  add_keyed(*command, *line, "--quantizer", "quantizer", "Integers by pump, ilp or rounding (pump)", "NAME");
+  add_keyed(*command, *line, "--min-layers", "min_layers", "Hexes along every feature and singular arc (1)", "K");
   command->add_option("--from", line->from,
                       "Compute this stage and all after it anew, those before from the checkpoint");
   command->add_option("--to", line->to, "End after this stage");
@@ -103,6 +110,7 @@ void add_run(CLI::App& app, Action& action) {
   add_keyed(*command, *line, "--feature-angle", "feature_angle", "Sharp edges where the input has no tags (70)", "DEG");
   add_keyed(*command, *line, "--tries", "tries", "Settings of the field repair to try before giving up (4)", "K");
   add_keyed(*command, *line, "--seed", "seed", "Of anything random (0)", "S");
+  command->add_flag("--decompose", line->decompose, "Singular nodes into curves, where that raises the quality");
   command->add_flag("--check", line->check, "Check every value between the stages");
   auto* verbose = command->add_flag("-v,--verbose", line->verbose, "Say more");
   command->add_flag("-q,--quiet", line->quiet, "Say nothing but warnings and errors")->excludes(verbose);

@@ -9,6 +9,7 @@ find_package(fmt 9 CONFIG REQUIRED)
 find_package(spdlog 1.10 CONFIG REQUIRED)
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED)
+find_package(ZLIB REQUIRED)
 
 pkg_check_modules(PETSC REQUIRED PETSc>=3.18)
 find_library(PETSC_LIBRARY NAMES petsc_real petsc HINTS ${PETSC_LIBRARY_DIRS} REQUIRED)

@@ -9,7 +9,7 @@ set -euo pipefail
 build_packages=(
   g++ cmake ninja-build pkg-config
   libopenmpi-dev openmpi-bin libtbb-dev libeigen3-dev petsc-dev libmetis-dev libhdf5-openmpi-dev
-  libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev libgmp-dev libboost-dev
+  libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev libgmp-dev libboost-dev zlib1g-dev
   coinor-libcbc-dev coinor-libclp-dev
   libopenblas0-pthread # named because PETSc would otherwise run on the reference BLAS
 )

@@ -42,6 +42,7 @@ class HexChecker {
   void cells();
   void corners();
   void sides();
+  void boundary_edges(const std::vector<HexSide>& sorted);
   void hang_together(const std::vector<HexSide>& sorted);
   void features();
 
@@ -109,9 +110,26 @@ void HexChecker::sides() {
                           sorted[i].key[2], sorted[i].key[3], j - i));
     i = j;
   }
-  const int rim = topology(mesh_).boundary_edges_not_in_two_faces;
-  if (rim > 0) out_.push_back({fmt::format("{} boundary edges are not in exactly two boundary faces.", rim), {}, {}});
+  boundary_edges(sorted);
   hang_together(sorted);
+}
+
+void HexChecker::boundary_edges(const std::vector<HexSide>& sorted) {
+  std::vector<std::array<int, 2>> edges;
+  for (std::int64_t side : hex::boundary_sides(sorted)) {
+    const auto quad = hex::side_vertices(mesh_, side);
+    for (std::size_t k = 0; k < 4; ++k)
+      edges.push_back({std::min(quad[k], quad[(k + 1) % 4]), std::max(quad[k], quad[(k + 1) % 4])});
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+    while (j < edges.size() && edges[j] == edges[i]) ++j;
+    const auto [a, b] = edges[i];
+    if (j - i != 2 && a != b)
+      out_.push_back({fmt::format("The boundary edge ({}, {}) is in {} boundary faces instead of two.", a, b, j - i),
+                      {a, b},
+                      {(mesh_.points[static_cast<std::size_t>(a)] + mesh_.points[static_cast<std::size_t>(b)]) / 2}});
+  }
 }
 
 // The hexes at each vertex are one fan through faces at it.

@@ -12,6 +12,7 @@ namespace hexfield {
 namespace {
 
 constexpr int most_side_steps = 2;
+constexpr int most_refused = 12;
 
 /// A sheet of one of the states that are followed.
 struct Move {
@@ -22,8 +23,15 @@ struct Move {
 
 class Decomposer {
  public:
-  Decomposer(const HexMesh& mesh, const DecomposeOptions& options, const Control& control)
-      : mesh_(mesh), options_(options), control_(control), measure_(options.final_valence) {
+  /// `seen`: meshes that are not to be reached, by their hashes. `steps`: classes tried so far.
+  Decomposer(const HexMesh& mesh, const DecomposeOptions& options, std::set<std::uint64_t> seen, std::int64_t steps,
+             const Control& control)
+      : mesh_(mesh),
+        options_(options),
+        control_(control),
+        measure_(options.final_valence),
+        seen_(std::move(seen)),
+        steps_(steps) {
     width_ = options.width > 0 ? static_cast<std::size_t>(options.width)
                                : std::clamp<std::size_t>(8000 / std::max<std::size_t>(mesh.hexes.size(), 1), 1, 24);
     if (options.search == DecomposeOptions::Search::greedy) width_ = 1;
@@ -32,6 +40,7 @@ class Decomposer {
   Decomposition run() {
     std::vector<hex::SheetState> beam;
     beam.emplace_back(mesh_, std::vector<DecomposeStep>{}, measure_);
+    if (beam[0].has_many_nodes()) width_ = 1;  // each state takes an integer program
     Decomposition out;
     out.measure_before = beam[0].measure();
     best_steps_ = {};
@@ -55,6 +64,7 @@ class Decomposer {
     out.proven = best_measure_ > 0 && complete_ && steps_ < options_.budget;
     return out;
   }
+  std::int64_t steps() const { return steps_; }
 
  private:
   /// The states that the best sheets lead to; only sheets that change the measure by at most `most`.
@@ -75,15 +85,11 @@ class Decomposer {
     for (const Move& move : moves) {
       if (next.size() >= width_) break;
       const hex::SheetState& from = beam[move.state];
-      try {
-        Inflation inflated = inflate_sheet(from.mesh(), from.complex(), move.sheet.quads);
-        auto steps = from.steps();
-        steps.push_back({move.sheet.quads, move.measure});
-        hex::SheetState state(std::move(inflated.mesh), std::move(steps), measure_);
-        if (seen_.insert(state.hash()).second) next.push_back(std::move(state));
-      } catch (const Error& error) {
-        if (error.code() != ExitCode::bad_input) throw;  // no sheet after all: one-sided, or features in its way
-      }
+      Inflation inflated = inflate_sheet(from.mesh(), from.complex(), move.sheet.quads);
+      auto steps = from.steps();
+      steps.push_back({move.sheet.quads, move.measure});
+      hex::SheetState state(std::move(inflated.mesh), std::move(steps), measure_);
+      if (seen_.insert(state.hash()).second) next.push_back(std::move(state));
     }
     return next;
   }
@@ -118,20 +124,41 @@ class Decomposer {
   std::set<std::uint64_t> seen_;
   std::vector<DecomposeStep> best_steps_;
   int best_measure_ = 0;
-  std::int64_t steps_ = 0;
+  std::int64_t steps_;
   bool complete_ = true;
 };
 
 }  // namespace
 
 Decomposition decompose(const HexMesh& mesh, const DecomposeOptions& options,
-                        const std::function<void(HexMesh&)>& settle, const Control& control) {
-  Decomposition out = Decomposer(mesh, options, control).run();
+                        const std::function<bool(HexMesh&)>& settle, const Control& control) {
+  Decomposition out;
   out.mesh = mesh;
-  for (const DecomposeStep& step : out.steps) {
-    out.mesh = inflate_sheet(out.mesh, build_hex_complex(out.mesh), step.quads).mesh;
-    if (settle) settle(out.mesh);
+  std::set<std::uint64_t> refused;  // what settle could not place
+  std::int64_t tried = 0;
+  hex::NodeMeasure measure(options.final_valence);
+  for (bool again = true, first = true; again; first = false) {
+    Decomposer search(out.mesh, options, refused, tried, control);
+    const Decomposition found = search.run();
+    tried = search.steps();
+    if (first) out.measure_before = found.measure_before;
+    out.measure = found.measure_before;
+    out.proven = found.proven && refused.empty();
+    again = false;
+    for (const DecomposeStep& step : found.steps) {
+      HexMesh next = inflate_sheet(out.mesh, build_hex_complex(out.mesh), step.quads).mesh;
+      if (settle && !settle(next)) {
+        refused.insert(hex::SheetState(std::move(next), {}, measure).hash());
+        again = static_cast<int>(refused.size()) < most_refused;
+        out.proven = false;
+        break;
+      }
+      out.mesh = std::move(next);
+      out.steps.push_back(step);
+      out.measure = step.measure;
+    }
   }
+  out.sheets_refused = static_cast<int>(refused.size());
   out.nodes_left = hex_singular_graph(out.mesh, build_hex_complex(out.mesh)).nodes;
   return out;
 }

@@ -2,8 +2,10 @@
 #include <cmath>
 
 #include "hex_topology.hpp"
+#include "hexfield/base/parallel.hpp"
 #include "hexfield/hex/check.hpp"
 #include "hexfield/hex/improve.hpp"
+#include "vertex_places.hpp"
 
 namespace hexfield {
 namespace {
@@ -13,7 +15,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double negligible = 1e-7;  // share of a corner in the smooth minimum
 constexpr int most_cg_steps = 80;
 
-/// A corner that counts: its share, vertices and the derivative of its scaled Jacobian by each.
+/// A corner that counts: its share, its vertices as numbers of the active ones and the derivative of its scaled
+/// Jacobian by each, along the directions in which that vertex can go.
 struct ActiveCorner {
   double share;
   std::array<int, 4> vertices;
@@ -22,12 +25,14 @@ struct ActiveCorner {
 
 class Maximiser {
  public:
-  Maximiser(HexMesh& mesh, const MaximiseOptions& options, const Control& control)
+  Maximiser(HexMesh& mesh, hex::VertexPlaces places, const MaximiseOptions& options, const Control& control)
       : mesh_(mesh),
+        places_(std::move(places)),
         options_(options),
         control_(control),
-        movable_(mesh.points.size(), 1),
-        length_(mesh.points.size()) {
+        held_(mesh.points.size(), 0),
+        number_(mesh.points.size(), -1),
+        mean_edge_(mesh.points.size()) {
     if (!options.free_boundary) hold();
     measure_lengths();
   }
@@ -39,8 +44,11 @@ class Maximiser {
     for (double p = options_.first_sharpness; p <= options_.last_sharpness; p *= 2) {
       double damping = 1;
       for (int step = 0; step < options_.steps; ++step) {
-        if (control_.stop_requested && control_.stop_requested())
+        if (control_.progress) control_.progress("raising the smallest scaled Jacobian", -1);
+        if (control_.stop_requested && control_.stop_requested()) {
+          mesh_.points = std::move(best);
           throw Error(ExitCode::stopped, "Stopped while the scaled Jacobian was being raised.");
+        }
         const double gain = newton_step(p, damping);
         const double now = minimum(mesh_.points);
         if (now > best_minimum) {
@@ -59,8 +67,10 @@ class Maximiser {
   double minimum(const std::vector<Vec3>& points) const { return smooth(points, -1); }
   double smooth(const std::vector<Vec3>& points, double p) const;
   void collect(double p);
+  void activate(const std::vector<std::array<int, 4>>& corners);
   std::vector<Vec3> apply(const std::vector<Vec3>& d, double p, double damping) const;
   std::vector<Vec3> solve(double p, double damping) const;
+  bool moved_points(const std::vector<Vec3>& d, std::vector<Vec3>& moved) const;
   double newton_step(double p, double& damping);
   static double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double sum = 0;
@@ -69,64 +79,94 @@ class Maximiser {
   }
 
   HexMesh& mesh_;
+  hex::VertexPlaces places_;
   const MaximiseOptions& options_;
   const Control& control_;
-  std::vector<char> movable_;
-  std::vector<double> length_;
+  std::vector<char> held_;         ///< per vertex
+  std::vector<int> number_;        ///< per vertex: among the active ones, -1
+  std::vector<double> mean_edge_;  ///< per vertex
+  std::vector<int> active_;        ///< vertices of the corners that count, ascending
+  std::vector<Mat3> tangents_;     ///< projectors on where the active vertices can go
+  std::vector<double> length_;     ///< per active vertex
   std::vector<ActiveCorner> corners_;
-  std::vector<Vec3> gradient_;  ///< of the smooth minimum, upwards
+  std::vector<Vec3> gradient_;  ///< of the smooth minimum by the active vertices, upwards
 };
 
 void Maximiser::hold() {
   const auto sides = hex::sorted_sides(mesh_);
   for (std::int64_t side : hex::boundary_sides(sides))
-    for (int v : hex::side_vertices(mesh_, side)) movable_[at(v)] = 0;
+    for (int v : hex::side_vertices(mesh_, side)) held_[at(v)] = 1;
   for (const auto& quad : mesh_.feature_quads)
-    for (int v : quad.vertices) movable_[at(v)] = 0;
+    for (int v : quad.vertices) held_[at(v)] = 1;
   for (const auto& line : mesh_.feature_lines)
-    for (int v : line.vertices) movable_[at(v)] = 0;
-  for (const auto& point : mesh_.feature_points) movable_[at(point.vertex)] = 0;
+    for (int v : line.vertices) held_[at(v)] = 1;
+  for (const auto& point : mesh_.feature_points) held_[at(point.vertex)] = 1;
 }
 
 void Maximiser::measure_lengths() {
   std::vector<double> count(mesh_.points.size(), 0);
-  std::fill(length_.begin(), length_.end(), 0);
+  std::fill(mean_edge_.begin(), mean_edge_.end(), 0);
   for (const auto& hex : mesh_.hexes)
     for (const auto& e : hex::hex_edges) {
       const double l = (mesh_.points[at(hex[at(e[0])])] - mesh_.points[at(hex[at(e[1])])]).norm();
       for (int k : e) {
-        length_[at(hex[at(k)])] += l;
+        mean_edge_[at(hex[at(k)])] += l;
         count[at(hex[at(k)])] += 1;
       }
     }
-  for (std::size_t v = 0; v < length_.size(); ++v) length_[v] = count[v] > 0 ? length_[v] / count[v] : 1;
+  for (std::size_t v = 0; v < mean_edge_.size(); ++v) mean_edge_[v] = count[v] > 0 ? mean_edge_[v] / count[v] : 1;
 }
 
 // -(1/p) log sum exp(-p SJ); for negative p the smallest SJ itself.
 double Maximiser::smooth(const std::vector<Vec3>& points, double p) const {
-  std::vector<double> values;
-  values.reserve(8 * mesh_.hexes.size());
-  double least = 1;
-  for (const auto& hex : mesh_.hexes)
-    for (const auto& corner : hex::hex_corners) {
-      const Vec3& x = points[at(hex[at(corner[0])])];
-      const Vec3 a = points[at(hex[at(corner[1])])] - x;
-      const Vec3 b = points[at(hex[at(corner[2])])] - x;
-      const Vec3 c = points[at(hex[at(corner[3])])] - x;
-      const double s = a.cross(b).dot(c) / std::max(a.norm() * b.norm() * c.norm(), 1e-300);
-      least = std::min(least, s);
-      values.push_back(s);
-    }
+  std::vector<double> values(8 * mesh_.hexes.size());
+  parallel_for(mesh_.hexes.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t h = begin; h < end; ++h)
+      for (std::size_t c = 0; c < 8; ++c) {
+        const auto& hex = mesh_.hexes[h];
+        const auto& corner = hex::hex_corners[c];
+        const Vec3& x = points[at(hex[at(corner[0])])];
+        const Vec3 u = points[at(hex[at(corner[1])])] - x;
+        const Vec3 v = points[at(hex[at(corner[2])])] - x;
+        const Vec3 w = points[at(hex[at(corner[3])])] - x;
+        values[8 * h + c] = u.cross(v).dot(w) / std::max(u.norm() * v.norm() * w.norm(), 1e-300);
+      }
+  });
+  const double least = std::min(1.0, *std::min_element(values.begin(), values.end()));
   if (p < 0) return least;
   double sum = 0;
-  for (double s : values) sum += std::exp(-p * (s - least));
+  for (double s : values)
+    if (p * (s - least) < 40) sum += std::exp(-p * (s - least));
   return least - std::log(sum) / p;
+}
+
+// Numbers the movable vertices of the corners.
+void Maximiser::activate(const std::vector<std::array<int, 4>>& corners) {
+  for (int v : active_) number_[at(v)] = -1;
+  active_.clear();
+  for (const auto& corner : corners)
+    for (int v : corner)
+      if (number_[at(v)] < 0 && held_[at(v)] == 0 && places_.kind(at(v)) != hex::VertexPlaces::Kind::fixed) {
+        number_[at(v)] = 0;
+        active_.push_back(v);
+      }
+  std::sort(active_.begin(), active_.end());
+  tangents_.resize(active_.size());
+  length_.resize(active_.size());
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    number_[at(active_[k])] = static_cast<int>(k);
+    length_[k] = mean_edge_[at(active_[k])];
+  }
+  parallel_for(active_.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      tangents_[k] = places_.tangent(at(active_[k]), mesh_.points[at(active_[k])]);
+  });
 }
 
 void Maximiser::collect(double p) {
   const double value = smooth(mesh_.points, p);
+  std::vector<std::array<int, 4>> members;
   corners_.clear();
-  gradient_.assign(mesh_.points.size(), Vec3::Zero());
   for (const auto& hex : mesh_.hexes)
     for (const auto& corner : hex::hex_corners) {
       ActiveCorner c{};
@@ -146,11 +186,17 @@ void Maximiser::collect(double p) {
         c.gradient[k + 1] = (u[(k + 1) % 3].cross(u[(k + 2) % 3]) - s * u[k]) * inverse[k];
         c.gradient[0] -= c.gradient[k + 1];
       }
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (movable_[at(c.vertices[k])] == 0) c.gradient[k].setZero();
-        gradient_[at(c.vertices[k])] += c.share * c.gradient[k];
-      }
+      members.push_back(c.vertices);
       corners_.push_back(c);
+    }
+  activate(members);
+  gradient_.assign(active_.size(), Vec3::Zero());
+  for (ActiveCorner& c : corners_)
+    for (std::size_t k = 0; k < 4; ++k) {
+      c.vertices[k] = number_[at(c.vertices[k])];
+      if (c.vertices[k] < 0) continue;
+      c.gradient[k] = tangents_[at(c.vertices[k])] * c.gradient[k];
+      gradient_[at(c.vertices[k])] += c.share * c.gradient[k];
     }
 }
 
@@ -162,9 +208,11 @@ std::vector<Vec3> Maximiser::apply(const std::vector<Vec3>& d, double p, double 
     out[v] = damping / (length_[v] * length_[v]) * d[v] - p * along * gradient_[v];
   for (const ActiveCorner& c : corners_) {
     double slope = 0;
-    for (std::size_t k = 0; k < 4; ++k) slope += c.gradient[k].dot(d[at(c.vertices[k])]);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (c.vertices[k] >= 0) slope += c.gradient[k].dot(d[at(c.vertices[k])]);
     slope *= p * c.share;
-    for (std::size_t k = 0; k < 4; ++k) out[at(c.vertices[k])] += slope * c.gradient[k];
+    for (std::size_t k = 0; k < 4; ++k)
+      if (c.vertices[k] >= 0) out[at(c.vertices[k])] += slope * c.gradient[k];
   }
   return out;
 }
@@ -196,22 +244,50 @@ std::vector<Vec3> Maximiser::solve(double p, double damping) const {
   return d;
 }
 
+// The points after a step: at most 0.3 of an edge, projected on the surfaces. Sides may not cut deeper through a curved
+// shape than they do: vertices that would stay; false when that does not help.
+bool Maximiser::moved_points(const std::vector<Vec3>& d, std::vector<Vec3>& moved) const {
+  moved = mesh_.points;
+  std::vector<char> bounded(active_.size(), 0);
+  parallel_for(active_.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t v = at(active_[k]);
+      const double size = d[k].norm() / length_[k];
+      moved[v] = places_.project(v, moved[v] + (size > 0.3 ? Vec3(0.3 / size * d[k]) : d[k]));
+      bounded[k] = places_.kind(v) != hex::VertexPlaces::Kind::free ? 1 : 0;
+    }
+  });
+  for (int pass = 0; pass < 4; ++pass) {
+    std::vector<char> cuts(active_.size(), 0);
+    parallel_for(active_.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t v = at(active_[k]);
+        if (bounded[k] == 0) continue;
+        const double error = places_.chord_error(v, moved[v], moved);
+        cuts[k] = error > places_.small_chord_error() &&
+                  error > (1 + 1e-6) * places_.chord_error(v, mesh_.points[v], mesh_.points);
+      }
+    });
+    if (std::find(cuts.begin(), cuts.end(), 1) == cuts.end()) return true;
+    for (std::size_t k = 0; k < cuts.size(); ++k)
+      if (cuts[k] != 0) moved[at(active_[k])] = mesh_.points[at(active_[k])];
+  }
+  return false;
+}
+
 // One damped step; the gain of the smooth minimum.
 double Maximiser::newton_step(double p, double& damping) {
   collect(p);
   const double value = smooth(mesh_.points, p);
   for (int attempt = 0; attempt < 8; ++attempt) {
-    const std::vector<Vec3> d = solve(p, damping);
-    std::vector<Vec3> moved = mesh_.points;
-    for (std::size_t v = 0; v < d.size(); ++v) {
-      const double size = d[v].norm() / length_[v];
-      moved[v] += size > 0.3 ? Vec3(0.3 / size * d[v]) : d[v];
-    }
-    const double raised = smooth(moved, p);
-    if (raised > value) {
-      mesh_.points = std::move(moved);
-      damping = std::max(damping / 4, 1e-6);
-      return raised - value;
+    std::vector<Vec3> moved;
+    if (moved_points(solve(p, damping), moved)) {
+      const double raised = smooth(moved, p);
+      if (raised > value) {
+        mesh_.points = std::move(moved);
+        damping = std::max(damping / 4, 1e-6);
+        return raised - value;
+      }
     }
     damping *= 6;
   }
@@ -221,7 +297,12 @@ double Maximiser::newton_step(double p, double& damping) {
 }  // namespace
 
 void maximise_minimum(HexMesh& hexes, const MaximiseOptions& options, const Control& control) {
-  Maximiser(hexes, options, control).run();
+  Maximiser(hexes, hex::VertexPlaces(hexes.points.size()), options, control).run();
+}
+
+void maximise_minimum(HexMesh& hexes, const TetMesh& mesh, const Features& features, const MaximiseOptions& options,
+                      const Control& control) {
+  Maximiser(hexes, hex::VertexPlaces(hexes, mesh, features), options, control).run();
 }
 
 }  // namespace hexfield

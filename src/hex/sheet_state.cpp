@@ -3,12 +3,15 @@
 #include <algorithm>
 
 #include "hexfield/hex/sheet.hpp"
+#include "sheet_program.hpp"
 
 namespace hexfield::hex {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+constexpr int most_edges = 14;  // of a vertex all of whose cycles are tried
+constexpr int longest_cycle = 8;
 constexpr std::size_t most_seeds = 400;  // per vertex
 constexpr int most_bent_seeds = 24;      // per vertex, tried only where no straight sheet is found
 
@@ -66,7 +69,8 @@ std::uint64_t SheetState::hash() const {
   return sum;
 }
 
-std::vector<SheetState::Seed> SheetState::seeds_at(int v, int max_valence, int most, NodeMeasure& measure) const {
+std::vector<SheetState::Seed> SheetState::seeds_at(int v, int max_valence, int most, NodeMeasure& measure,
+                                                   bool& complete) const {
   const VertexSphere& star = spheres_[at(v)];
   std::vector<Seed> seeds;
   const auto consider = [&](const std::vector<int>& cycle) {
@@ -76,12 +80,15 @@ std::vector<SheetState::Seed> SheetState::seeds_at(int v, int max_valence, int m
     if (after - measures_[at(v)] <= std::min(most, -1)) seeds.push_back({after, cycle});
   };
   // Vertices with very many edges have too many cycles to try; their general cut alone always helps.
-  if (star.sphere.size() <= 14)
-    for (const auto& cycle : simple_cycles(star.sphere, std::min(max_valence, 8))) consider(cycle);
+  const bool few = star.sphere.size() <= most_edges;
+  complete = complete && few && max_valence <= longest_cycle;
+  if (few)
+    for (const auto& cycle : simple_cycles(star.sphere, std::min(max_valence, longest_cycle))) consider(cycle);
   if (seeds.empty() && star.sphere.max_degree() >= 6) consider(general_cut(star.sphere));
   std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
     return a.measure_after != b.measure_after ? a.measure_after < b.measure_after : a.cycle.size() < b.cycle.size();
   });
+  complete = complete && seeds.size() <= most_seeds;
   if (seeds.size() > most_seeds) seeds.resize(most_seeds);
   return seeds;
 }
@@ -120,22 +127,7 @@ std::vector<int> SheetState::bends_of(int v, const std::vector<int>& cycle) cons
   return out;
 }
 
-SheetState::Found SheetState::sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep,
-                                     NodeMeasure& measure) const {
-  const std::vector<int> features = feature_quads_of(mesh_, complex_);
-  const QuadClasses classes = build_quad_classes(complex_, features);
-  const int max_valence = std::max(options.max_valence, max_valence_);
-  const SearchLimits limits{max_valence, options.seed_budget, 400};
-  SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits);
-  Found found;
-  const auto follow = [&](SheetSearch& through, const std::vector<int>& quads, std::vector<SheetCandidate>& out) {
-    if (options.search == DecomposeOptions::Search::exact) {
-      found.complete = through.find(quads, out) && found.complete;
-      return;
-    }
-    SheetCandidate sheet{through.propagate_greedily(quads), 0};
-    if (!sheet.quads.empty() && through.evaluate(sheet.quads, sheet.change)) out.push_back(std::move(sheet));
-  };
+std::vector<int> SheetState::vertices_by_measure() const {
   std::vector<int> vertices;
   for (std::size_t v = 0; v < measures_.size(); ++v)
     if (measures_[v] > 0) vertices.push_back(static_cast<int>(v));
@@ -144,33 +136,96 @@ SheetState::Found SheetState::sheets(const DecomposeOptions& options, int most, 
     const bool node_b = vertex_type(spheres_[at(b)].sphere) == VertexType::node;
     return node_a != node_b ? node_a : measures_[at(a)] > measures_[at(b)];
   });
-  for (int v : vertices) {
-    std::vector<SheetCandidate> here;
-    const std::vector<Seed> seeds = seeds_at(v, max_valence, most, measure);
-    for (const Seed& seed : seeds)
-      if (bends_of(v, seed.cycle).empty()) follow(search, quads_of(v, seed.cycle), here);
-    int bent = 0;
-    for (const Seed& seed : seeds) {
-      const std::vector<int> bends = bends_of(v, seed.cycle);
-      if (!here.empty() || bends.empty() || ++bent > most_bent_seeds) continue;
-      const QuadClasses bent_classes = build_quad_classes(complex_, features, bends);
-      SheetSearch bent_search(mesh_, complex_, bent_classes, spheres_, measure, limits);
-      follow(bent_search, quads_of(v, seed.cycle), here);
-      found.steps += bent_search.steps_taken();
+  return vertices;
+}
+
+void SheetState::keep_possible(std::vector<SheetCandidate>& sheets, int most, std::size_t keep) const {
+  std::sort(sheets.begin(), sheets.end());
+  std::vector<SheetCandidate> good;
+  for (SheetCandidate& sheet : sheets) {
+    if (sheet.change > most || good.size() >= keep) break;
+    if (!good.empty() && good.back().quads == sheet.quads) continue;
+    try {
+      inflate_sheet(mesh_, complex_, sheet.quads);
+      good.push_back(std::move(sheet));
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::bad_input) throw;  // one-sided, or features in its way
     }
-    found.complete = found.complete && bent <= most_bent_seeds;
-    std::erase_if(here, [&](const SheetCandidate& sheet) { return sheet.change > most; });
-    if (here.empty()) continue;
-    found.sheets.insert(found.sheets.end(), here.begin(), here.end());
-    if (--targets == 0) break;
   }
-  found.steps += search.steps_taken();
+  sheets = std::move(good);
+}
+
+SheetState::Found SheetState::sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep,
+                                     NodeMeasure& measure) const {
+  const std::vector<int> features = feature_quads_of(mesh_, complex_);
+  const QuadClasses classes = build_quad_classes(complex_, features);
+  const int max_valence = std::max(options.max_valence, max_valence_);
+  const bool exact = options.search == DecomposeOptions::Search::exact;
+  const std::vector<int> vertices = vertices_by_measure();
+  SheetProgram::Result all;
+  const auto solve_for_all = [&] {
+    all = SheetProgram(mesh_, complex_, classes, spheres_, measure, max_valence).solve(options.branches);
+  };
+  const bool by_seeds = !exact || most >= 0 || vertices.size() <= few_vertices;
+  if (!by_seeds) solve_for_all();
+  Found found;
+  if (by_seeds) {
+    const SearchLimits limits{max_valence, options.seed_budget, 400};
+    SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits);
+    found.complete = exact;
+    for (int v : vertices) {
+      std::vector<SheetCandidate> here;
+      for (const Seed& seed : seeds_at(v, max_valence, most, measure, found.complete)) {
+        if (!bends_of(v, seed.cycle).empty()) continue;
+        if (exact) {
+          found.complete = search.find(quads_of(v, seed.cycle), here) && found.complete;
+        } else if (SheetCandidate sheet{search.propagate_greedily(quads_of(v, seed.cycle)), 0};
+                   !sheet.quads.empty() && search.evaluate(sheet.quads, sheet.change)) {
+          here.push_back(std::move(sheet));
+        }
+      }
+      keep_possible(here, most, keep);
+      found.sheets.insert(found.sheets.end(), here.begin(), here.end());
+      if ((!here.empty() && --targets == 0) || search.steps_taken() > options.budget / 5) break;
+    }
+    found.steps = search.steps_taken();
+    found.complete = found.complete && found.steps <= options.budget / 5;
+    if (exact && most < 0 && found.sheets.empty() && !found.complete) solve_for_all();
+  }
+  found.sheets.insert(found.sheets.end(), all.sheets.begin(), all.sheets.end());
+  if (found.sheets.empty()) found.complete = found.complete && by_seeds ? found.complete : all.complete;
+  if (found.sheets.empty() && exact) add_bent_sheets(options, most, keep, measure, found);
   std::sort(found.sheets.begin(), found.sheets.end());
   found.sheets.erase(std::unique(found.sheets.begin(), found.sheets.end(),
                                  [](const SheetCandidate& a, const SheetCandidate& b) { return a.quads == b.quads; }),
                      found.sheets.end());
   if (found.sheets.size() > keep) found.sheets.resize(keep);
   return found;
+}
+
+void SheetState::add_bent_sheets(const DecomposeOptions& options, int most, std::size_t keep, NodeMeasure& measure,
+                                 Found& found) const {
+  const std::vector<int> features = feature_quads_of(mesh_, complex_);
+  const int max_valence = std::max(options.max_valence, max_valence_);
+  const SearchLimits limits{max_valence, options.seed_budget, 400};
+  bool all_seeds = true;
+  for (int v : vertices_by_measure()) {
+    int bent = 0;
+    for (const Seed& seed : seeds_at(v, max_valence, most, measure, all_seeds)) {
+      const std::vector<int> bends = bends_of(v, seed.cycle);
+      if (bends.empty()) continue;
+      if (++bent > most_bent_seeds || found.steps > options.budget) break;
+      const QuadClasses classes = build_quad_classes(complex_, features, bends);
+      SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits);
+      std::vector<SheetCandidate> here;
+      search.find(quads_of(v, seed.cycle), here);
+      keep_possible(here, most, keep);
+      found.steps += search.steps_taken();
+      found.sheets.insert(found.sheets.end(), here.begin(), here.end());
+      if (!here.empty()) break;
+    }
+    if (!found.sheets.empty()) return;
+  }
 }
 
 }  // namespace hexfield::hex

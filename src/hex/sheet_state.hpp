@@ -17,24 +17,35 @@ class SheetState {
   const HexComplex& complex() const { return complex_; }
   const std::vector<DecomposeStep>& steps() const { return steps_; }
   int measure() const { return total_; }
+  /// More vertices have a measure than are searched from one by one.
+  bool has_many_nodes() const { return vertices_by_measure().size() > few_vertices; }
   /// Equal for isomorphic meshes.
   std::uint64_t hash() const;
 
   struct Found {
     std::vector<SheetCandidate> sheets;  ///< best first, each once
-    bool complete = true;                ///< no limit was hit
+    bool complete = true;                ///< no limit was hit by the search for sheets without bends
     std::int64_t steps = 0;
   };
-  /// Sheets through vertices of positive measure that change the sum by at most `most`, from the first `targets`
-  /// vertices that have any.
+  /// Sheets that change the sum of measures by at most `most`: from seeds at the first `targets` vertices that have
+  /// any, or, where many vertices have a measure, those that lower it most together. Where there are none, sheets that
+  /// bend at the vertex they start from.
   Found sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep, NodeMeasure& measure) const;
 
  private:
+  static constexpr std::size_t few_vertices = 12;
   struct Seed {
     int measure_after;
     std::vector<int> cycle;
   };
-  std::vector<Seed> seeds_at(int v, int max_valence, int most, NodeMeasure& measure) const;
+  void add_bent_sheets(const DecomposeOptions& options, int most, std::size_t keep, NodeMeasure& measure,
+                       Found& found) const;
+  /// Clears `complete` when cycles were left out.
+  std::vector<Seed> seeds_at(int v, int max_valence, int most, NodeMeasure& measure, bool& complete) const;
+  /// Vertices with positive measure, nodes first, the largest measure first.
+  std::vector<int> vertices_by_measure() const;
+  /// Keeps the best sheets that change the measure by at most `most` and can be inflated, each once.
+  void keep_possible(std::vector<SheetCandidate>& sheets, int most, std::size_t keep) const;
   /// Regular edges at which a sheet with this cycle at v has to bend: from v straight on to the boundary or the
   /// next singular vertex. Ascending.
   std::vector<int> bends_of(int v, const std::vector<int>& cycle) const;

@@ -15,14 +15,14 @@ CellSoup parse_soup(const std::filesystem::path& file, std::string_view data) {
   if (data.starts_with("# vtk DataFile")) return read_legacy_vtk(std::move(in));
   const std::string first(Scanner(in).peek().substr(0, 40));
   if (first.starts_with("$")) return read_gmsh(std::move(in));
+  if (first.starts_with("<?xml") || first.starts_with("<VTKFile")) return read_vtu(file.string(), data);
   const std::string extension = lower(file.extension().string());
   if (first.starts_with("MeshVersionFormatted") || (extension == ".mesh" && first.starts_with("#")))
     return read_medit(std::move(in));
-  throw Error(
-      ExitCode::bad_input,
-      fmt::format("{}: begins with \"{}\", which is none of the formats known here (legacy VTK, Gmsh MSH 2.2 or "
-                  "4.1, Medit .mesh in ASCII).",
-                  file.string(), printable(first)));
+  throw Error(ExitCode::bad_input,
+              fmt::format("{}: begins with \"{}\", which is none of the formats known here (legacy VTK, VTU, Gmsh MSH "
+                          "2.2 or 4.1, Medit .mesh in ASCII).",
+                          file.string(), printable(first)));
 }
 
 void write_soup(const std::filesystem::path& file, const CellSoup& soup, const WriteOptions& options) {

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 
 #include "readers.hpp"
-#include "vtk_arrays.hpp"
+#include "vtk_cells.hpp"
 
 namespace hexfield::io {
 namespace {
@@ -22,7 +21,7 @@ class VtkReader {
     if (!have_points_) in_.fail("there is no POINTS section");
     if (!have_cells_) in_.fail("there is no CELLS section");
     if (!have_types_) in_.fail("there is no CELL_TYPES section");
-    make_cells();
+    add_vtk_cells(in_, cells_, soup_);
     return std::move(soup_);
   }
 
@@ -37,18 +36,13 @@ class VtkReader {
   void read_field();
   void read_metadata();
   void take_values(const std::string& name, std::int64_t components, std::int64_t n, VtkType type);
-  void make_cells();
-  void add_cell(std::size_t cell, std::size_t begin, std::size_t end);
   std::int64_t multiplied(std::int64_t a, std::int64_t b);
 
   Scanner in_;
   bool binary_;
   VtkArrays arrays_;
   CellSoup soup_;
-  std::vector<std::int64_t> offsets_;  // one more than cells
-  std::vector<std::int64_t> connectivity_;
-  std::vector<std::int64_t> types_;
-  std::vector<std::int64_t> colours_;
+  VtkCells cells_;
   std::size_t colour_rank_ = SIZE_MAX;  // lower is better
   bool have_points_ = false, have_cells_ = false, have_types_ = false;
   enum class Of { dataset, cells, points } attributes_of_ = Of::dataset;
@@ -76,7 +70,8 @@ void VtkReader::read_section(const std::string& section) {
   if (section == "cell_data" || section == "point_data") {
     attributes_of_ = section == "cell_data" ? Of::cells : Of::points;
     num_attributes_ = in_.integer("the number of attributes");
-    const auto expected = static_cast<std::int64_t>(attributes_of_ == Of::cells ? types_.size() : soup_.points.size());
+    const auto expected =
+        static_cast<std::int64_t>(attributes_of_ == Of::cells ? cells_.types.size() : soup_.points.size());
     if (num_attributes_ != expected)
       in_.fail(fmt::format("{} is {} but the file has {} of them", section == "cell_data" ? "CELL_DATA" : "POINT_DATA",
                            num_attributes_, expected));
@@ -108,28 +103,28 @@ void VtkReader::read_cells() {
     in_.token("OFFSETS");
     const VtkType offset_type = vtk_type(in_, in_.token("the type of the offsets"));
     in_.line();
-    offsets_ = arrays_.integers(n, offset_type, "offsets of cells");
+    cells_.offsets = arrays_.integers(n, offset_type, "offsets of cells");
     if (lower(in_.token("CONNECTIVITY")) != "connectivity") in_.fail("CONNECTIVITY is expected");
     const VtkType type = vtk_type(in_, in_.token("the type of the connectivity"));
     in_.line();
-    connectivity_ = arrays_.integers(size, type, "vertices of cells");
-    if (offsets_.empty()) offsets_.push_back(0);
-    for (std::size_t i = 0; i < offsets_.size(); ++i)
-      if (offsets_[i] < (i == 0 ? 0 : offsets_[i - 1]) || offsets_[i] > size)
-        in_.fail(
-            fmt::format("offset {} of the cells is {}, which does not lie between its neighbours", i, offsets_[i]));
+    cells_.connectivity = arrays_.integers(size, type, "vertices of cells");
+    if (cells_.offsets.empty()) cells_.offsets.push_back(0);
+    for (std::size_t i = 0; i < cells_.offsets.size(); ++i)
+      if (cells_.offsets[i] < (i == 0 ? 0 : cells_.offsets[i - 1]) || cells_.offsets[i] > size)
+        in_.fail(fmt::format("offset {} of the cells is {}, which does not lie between its neighbours", i,
+                             cells_.offsets[i]));
     return;
   }
   const auto values = arrays_.integers(size, VtkType::i32, "vertices of cells");
-  offsets_ = {0};
+  cells_.offsets = {0};
   std::size_t at = 0;
   for (std::int64_t c = 0; c < n; ++c) {
     if (at >= values.size() || values[at] < 0 || values[at] > static_cast<std::int64_t>(values.size() - at - 1))
       in_.fail(fmt::format("the list of cells ends inside cell {} of {}", c, n));
     const auto corners = static_cast<std::size_t>(values[at]);
-    connectivity_.insert(connectivity_.end(), values.begin() + static_cast<std::ptrdiff_t>(at + 1),
-                         values.begin() + static_cast<std::ptrdiff_t>(at + 1 + corners));
-    offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
+    cells_.connectivity.insert(cells_.connectivity.end(), values.begin() + static_cast<std::ptrdiff_t>(at + 1),
+                               values.begin() + static_cast<std::ptrdiff_t>(at + 1 + corners));
+    cells_.offsets.push_back(static_cast<std::int64_t>(cells_.connectivity.size()));
     at += 1 + corners;
   }
   if (at != values.size())
@@ -141,7 +136,7 @@ void VtkReader::read_types() {
   have_types_ = true;
   const std::int64_t n = in_.integer("the number of cell types");
   in_.line();
-  types_ = arrays_.integers(n, VtkType::i32, "types of cells");
+  cells_.types = arrays_.integers(n, VtkType::i32, "types of cells");
 }
 
 void VtkReader::read_attribute(const std::string& kind) {
@@ -205,48 +200,12 @@ void VtkReader::read_metadata() {
 
 // The cell scalar that holds the colours: the best of the well-known names, else the first integer one.
 void VtkReader::take_values(const std::string& name, std::int64_t components, std::int64_t n, VtkType type) {
-  static constexpr std::array<std::string_view, 4> names = {"cellentityids", "color", "colour", "feature"};
-  std::size_t rank = is_integer(type) ? names.size() : SIZE_MAX;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (lower(name) == names[i] && type != VtkType::text && type != VtkType::bit) rank = i;
+  const std::size_t rank = colour_rank(name, type);
   const bool is_colour = attributes_of_ == Of::cells && components == 1 &&
-                         n == static_cast<std::int64_t>(types_.size()) && rank < colour_rank_;
+                         n == static_cast<std::int64_t>(cells_.types.size()) && rank < colour_rank_;
   if (!is_colour) return arrays_.skip(multiplied(n, components), type, "an array");
-  colours_ = arrays_.integers(n, type, "colours of cells");
+  cells_.colours = arrays_.integers(n, type, "colours of cells");
   colour_rank_ = rank;
-}
-
-void VtkReader::make_cells() {
-  if (offsets_.size() != types_.size() + 1)
-    in_.fail(fmt::format("there are {} cells but {} cell types", offsets_.size() - 1, types_.size()));
-  for (std::size_t c = 0; c < types_.size(); ++c)
-    add_cell(c, static_cast<std::size_t>(offsets_[c]), static_cast<std::size_t>(offsets_[c + 1]));
-}
-
-void VtkReader::add_cell(std::size_t cell, std::size_t begin, std::size_t end) {
-  const auto id = static_cast<std::int64_t>(cell);
-  const std::int64_t colour = colours_.empty() ? 0 : colours_[cell];
-  const std::int64_t type = types_[cell];
-  const std::int64_t* v = connectivity_.data();
-  if (type == 2) {  // poly-vertex
-    for (std::size_t k = begin; k < end; ++k) soup_.add(Shape::point, v + k, colour, id);
-    return;
-  }
-  if (type == 4) {  // poly-line
-    for (std::size_t k = begin; k + 1 < end; ++k) soup_.add(Shape::line, v + k, colour, id);
-    return;
-  }
-  for (std::size_t s = 0; s < num_shapes; ++s)
-    if (shape_vtk[s] == type) {
-      if (end - begin != static_cast<std::size_t>(shape_corners[s]))
-        in_.fail(fmt::format("cell {} is a {} but has {} vertices", id, shape_name[s], end - begin));
-      soup_.add(static_cast<Shape>(s), v + begin, colour, id);
-      return;
-    }
-  in_.fail(
-      fmt::format("cell {} has VTK type {}; only vertices (1), lines (3), triangles (5), quads (9), tets (10) and "
-                  "hexes (12) are known here",
-                  id, type));
 }
 
 std::int64_t VtkReader::multiplied(std::int64_t a, std::int64_t b) {

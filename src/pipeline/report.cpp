@@ -46,7 +46,8 @@ Json empty_report(const RunOptions& options, int ranks, int threads) {
   json["ranks"] = ranks;
   json["threads"] = threads;
   json["stages"] = Json::array();
-  for (const char* section : {"field", "meshability", "repair", "seamless", "igm", "quantization", "hex"})
+  for (const char* section :
+       {"field", "meshability", "repair", "seamless", "igm", "quantization", "decomposition", "hex"})
     json[section] = nullptr;
   return json;
 }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "hexfield/io/tet_io.hpp"
 #include "hexfield/map/compute_map.hpp"
 #include "hexfield/pipeline/options.hpp"
+#include "hexfield/quantize/map_quantizer.hpp"
+#include "quantize_values.hpp"
 #include "safe_points.hpp"
 #include "team.hpp"
 
@@ -28,6 +31,17 @@ struct Culprits {
   bool empty() const { return tets.empty() && edges.empty() && nodes.empty() && hexes.empty() && places.empty(); }
 };
 
+/// What `decompose` did to the hex mesh.
+struct DecomposeReport {
+  bool tried = false;
+  bool taken = false;  ///< the smallest scaled Jacobian rose, and every feature is kept
+  bool proven = false;
+  int sheets = 0;
+  int nodes_before = 0, nodes_after = 0;
+  int measure_before = 0, measure_after = 0;
+  double min_before = 0, min_after = 0;  ///< scaled Jacobian
+};
+
 /// Everything a run has reached. The values are complete on rank 0 and empty elsewhere.
 struct RunState {
   Team& team;
@@ -38,10 +52,14 @@ struct RunState {
   TetInput input{};
   FieldResult field{};  ///< of stage field, then of stage repair
   RepairReport repair{};
-  int attempt = 0;  ///< which setting of the repair is being tried, on all ranks
-  SeamlessResult seamless{};
+  int attempt = 0;            ///< which setting of the repair is being tried, on all ranks
+  SeamlessResult seamless{};  ///< of stage seamless, made exact by stage quantize
+  QuantizeResult quantization{};
+  std::optional<MapQuantizer> quantizer{};  ///< of the exact map; where a stage needs it and it is empty, it is built
   IgmResult igm{};
+  bool refined = false;  ///< stage igm has refined `field`, on rank 0
   HexMesh hexes{};
+  DecomposeReport decomposition{};
   Culprits culprits{};
   nlohmann::ordered_json tries = nlohmann::ordered_json::array();  ///< those that failed (rank 0)
   std::string sentence{};           ///< the verdict when every stage has succeeded (rank 0)

@@ -68,7 +68,7 @@ std::vector<std::size_t> Program::violated(const std::vector<std::int64_t>& x) c
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::int64_t sum = 0;
     for (const auto& [b, c] : rows[r]) sum += c * x[static_cast<std::size_t>(b)];
-    if (sum < 1) found.push_back(r);
+    if (sum < least) found.push_back(r);
   }
   return found;
 }
@@ -81,7 +81,7 @@ std::optional<IlpResult> solve_ilp(const Program& program, double gap, double se
   };
   Matrix matrix(2 * m);
   for (const ArcSum& e : system.equations) matrix.add_row(as_row(e), 0, 0);
-  for (const ArcSum& r : program.rows) matrix.add_row(as_row(r), 1, infinity);
+  for (const ArcSum& r : program.rows) matrix.add_row(as_row(r), program.least, infinity);
   std::vector<std::set<std::int64_t>> secants(m);
   for (std::size_t j = 0; j < m; ++j)
     for (auto k = static_cast<std::int64_t>(std::floor(system.target[j])) - 2, end = k + 5; k < end; ++k)

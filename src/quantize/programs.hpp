@@ -8,11 +8,12 @@
 namespace hexfield::quantize {
 
 /// Integer lengths per bundle: close to the targets in the sum of size * (x - target)^2, with all equations 0, all
-/// rows at least 1 and all lengths at least `lower`.
+/// rows at least `least` and all lengths at least `lower`.
 struct Program {
   const BundleSystem& system;
   std::vector<ArcSum> rows;  ///< over bundles
   int lower = 0;
+  int least = 1;
 
   double objective(const std::vector<std::int64_t>& x) const;
   /// Rows that x violates.
@@ -39,6 +40,8 @@ class SheetPump {
   bool repair(std::vector<std::int64_t>& x);
   /// Pumps bundles while that lowers the objective; `thorough`: in both directions, without an early end.
   void descend(std::vector<std::int64_t>& x, bool thorough);
+  /// Sheets that were pumped.
+  std::size_t pumped() const { return pumped_; }
 
  private:
   struct Model;
@@ -49,6 +52,7 @@ class SheetPump {
 
   const Program& program_;
   std::unique_ptr<Model> model_;
+  std::size_t pumped_ = 0;
 };
 
 }  // namespace hexfield::quantize

@@ -36,7 +36,7 @@ class Quantizer {
         scale_(std::cbrt(options.target_hexes / real_volume(complex))),
         critical_(critical_set(complex)),
         system_(bundle_system(complex, scale_)),
-        program_{system_, {}, options.method == QuantizeMethod::positive ? 1 : 0} {
+        program_{system_, {}, options.method == QuantizeMethod::positive ? 1 : 0, options.min_layers} {
     for (const ArcSum& s : critical_.statics) add_row(s);
   }
 
@@ -104,6 +104,7 @@ class Quantizer {
         x_ = solved->x;
       }
       pump.descend(x_, thorough);
+      result_.sheets += pump.pumped();
       if (separate()) {
         thorough = false;
         continue;
@@ -121,6 +122,8 @@ class Quantizer {
   void by_positive() {
     program_.lower = 1;
     program_.rows.clear();
+    known_.clear();
+    for (const ArcSum& s : critical_.statics) add_row(s);
     const auto solved = solve_ilp(program_, 1e-4, options_.time_limit);
     if (!solved)
       throw Error(ExitCode::no_integer_grid_map,

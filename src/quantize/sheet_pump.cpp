@@ -68,7 +68,7 @@ void SheetPump::prepare(const std::vector<std::int64_t>& x) {
   for (std::size_t r = 0; r < program_.rows.size(); ++r) {
     std::int64_t sum = 0;
     for (const auto& [b, c] : program_.rows[r]) sum += c * x[static_cast<std::size_t>(b)];
-    model_->lp.setRowLower(static_cast<int>(system.equations.size() + r), static_cast<double>(1 - sum));
+    model_->lp.setRowLower(static_cast<int>(system.equations.size() + r), static_cast<double>(program_.least - sum));
   }
 }
 
@@ -137,13 +137,14 @@ bool SheetPump::try_pump(std::vector<std::int64_t>& x, std::int32_t bundle, int 
       now += c * x[static_cast<std::size_t>(b)];
       per_step += c * (*change)[static_cast<std::size_t>(b)];
     }
-    if (per_step < 0) steps = std::min(steps, (now - 1) / -per_step);
+    if (per_step < 0) steps = std::min(steps, (now - program_.least) / -per_step);
   }
   if (steps <= 0) return false;
   std::vector<std::int64_t> trial = x;
   for (std::size_t j = 0; j < x.size(); ++j) trial[j] += steps * (*change)[j];
   if (program_.objective(trial) > program_.objective(x) - 1e-6) return false;
   x = std::move(trial);
+  ++pumped_;
   return true;
 }
 

@@ -154,7 +154,19 @@ bool unzip_along_guide(RepairState& state, VertexId v, const EdgeKey& edge, cons
 
 namespace {
 
-// A try that fails leaves strips of split tets behind, in which the next one would split more: it gets a copy.
+bool on_feature_curve(const RepairState& state, VertexId v) {
+  return std::ranges::any_of(edges_at(state.mesh, v),
+                             [&](const EdgeKey& e) { return state.features.edges.contains(e); });
+}
+
+// A zipper node on a feature curve, or another bad node where curves meet.
+bool is_held_node(const RepairState& state, VertexId v) {
+  const NodeKind kind = kind_of(state, v);
+  return on_boundary(state.mesh, v) && ((kind == NodeKind::zipper && on_feature_curve(state, v)) ||
+                                        (kind == NodeKind::invalid && is_feature_end(state, v)));
+}
+
+// Its way may lead anywhere, so all is copied: splits of ways that fail would add up from try to try.
 template <class Operation>
 bool on_a_copy(RepairState& state, const Operation& operation) {
   RepairState trial = state;
@@ -164,12 +176,11 @@ bool on_a_copy(RepairState& state, const Operation& operation) {
 }
 
 bool repair_zipper_node(RepairState& state, VertexId v, const ZipperOptions& options) {
-  const NodeKind kind = kind_of(state, v);
-  if (kind != NodeKind::zipper && (kind != NodeKind::invalid || !is_feature_end(state, v))) return false;
+  if (!is_held_node(state, v)) return false;
   if (empty_outer_sector(state, v) &&
       on_a_copy(state, [&](RepairState& trial) { return unzip_sector_transversally(trial, v, options); }))
     return true;
-  if (kind != NodeKind::zipper) return false;
+  if (kind_of(state, v) != NodeKind::zipper) return false;
   return std::ranges::any_of(singular_edges_at(state, v), [&](const EdgeKey& edge) {
     return !state.features.edges.contains(edge) &&
            on_a_copy(state, [&](RepairState& trial) { return unzip_along_guide(trial, v, edge, options); });
@@ -182,7 +193,7 @@ int repair_constrained_zipper_nodes(RepairState& state, const ZipperOptions& opt
   std::set<VertexId> nodes;
   for (const auto& [edge, code] : state.codes)
     for (VertexId v : edge)
-      if (is_defect(state, v) && on_boundary(state.mesh, v) && !is_free_zipper(state, v)) nodes.insert(v);
+      if (is_held_node(state, v)) nodes.insert(v);
   return static_cast<int>(
       std::ranges::count_if(nodes, [&](VertexId v) { return repair_zipper_node(state, v, options); }));
 }

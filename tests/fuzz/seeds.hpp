@@ -22,7 +22,7 @@ inline std::vector<Seed> seeds() {
   std::vector<Seed> all;
   const TetInput tets = samples::tagged_box();
   const HexMesh hexes = samples::tagged_hexes();
-  for (const char* ending : {"vtk", "msh", "msh2", "mesh"})
+  for (const char* ending : {"vtk", "vtu", "msh", "msh2", "mesh"})
     for (const bool binary : {false, true}) {
       if (binary && std::string(ending) == "mesh") continue;
       const std::string name = std::string(binary ? "binary." : "ascii.") + ending;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "hexfield/base/parallel.hpp"
 #include "hexfield/hex/check.hpp"
+#include "hexfield/hex/hex_surface.hpp"
 #include "hexfield/hex/improve.hpp"
 #include "hexfield/hex/sheet.hpp"
 #include "support/hex_meshes.hpp"
@@ -29,6 +31,7 @@ TEST(Decompose, TheEightNodesInNoMoreSheetsThanKnown) {
       place_free(mesh);
       for (const auto& violation : check(mesh)) ADD_FAILURE() << name << ": " << violation.sentence;
       ++meshes;
+      return true;
     };
     const Decomposition done = decompose(node_mesh(name), {}, settle, {});
     EXPECT_LE(done.steps.size(), sheets) << name;
@@ -76,6 +79,59 @@ TEST(Decompose, ANodeHeldByAFeatureSurfaceIsReportedWithProof) {
   EXPECT_TRUE(done.proven);
 }
 
+TEST(Decompose, IsProvenOnlyWhenNothingWasLeftOut) {
+  HexMesh mesh = node_mesh("(4,0,0)");
+  const HexComplex complex = build_hex_complex(mesh);
+  for (const auto& quad : complex.quads)
+    if (!complex.is_boundary_quad(complex.find_quad(quad))) mesh.feature_quads.push_back({quad, 1});
+  DecomposeOptions greedy;
+  greedy.search = DecomposeOptions::Search::greedy;
+  EXPECT_FALSE(decompose(mesh, greedy, {}, {}).proven);
+  DecomposeOptions long_edges;
+  long_edges.max_valence = 9;  // longer cycles are not tried
+  EXPECT_FALSE(decompose(mesh, long_edges, {}, {}).proven);
+  DecomposeOptions none;
+  none.budget = 0;
+  EXPECT_FALSE(decompose(mesh, none, {}, {}).proven);
+}
+
+TEST(Decompose, SheetsThatCannotBePlacedAreTakenBack) {
+  const HexMesh cube = hex_grid({2, 2, 2});
+  const HexMesh padded = pad(cube, build_hex_complex(cube));
+  const Decomposition none = decompose(padded, {}, [](HexMesh&) { return false; }, {});
+  EXPECT_TRUE(none.steps.empty());
+  EXPECT_EQ(none.mesh.hexes, padded.hexes);
+  EXPECT_EQ(none.measure, none.measure_before);
+  EXPECT_GT(none.sheets_refused, 1);
+  EXPECT_FALSE(none.proven);
+  // Only the first is refused: the others do as well.
+  int calls = 0;
+  const Decomposition second = decompose(padded, {}, [&](HexMesh&) { return ++calls > 1; }, {});
+  EXPECT_EQ(second.measure, 0);
+  EXPECT_EQ(second.sheets_refused, 1);
+  EXPECT_EQ(static_cast<std::size_t>(calls), second.steps.size() + 1);
+}
+
+TEST(Decompose, OnAShapeTheSameForAnyNumberOfThreads) {
+  const HexMesh cube = hex_grid({2, 2, 2});
+  HexMesh padded = pad(cube, build_hex_complex(cube));
+  const HexSurface surface = complete_hex_features(padded);
+  const int before = threads();
+  std::vector<HexMesh> results;
+  for (int n : {1, 3}) {
+    set_threads(n);
+    const Decomposition done = decompose_on_shape(padded, {&surface.mesh, &surface.features}, {}, {});
+    EXPECT_EQ(done.measure, 0);
+    EXPECT_TRUE(check(done.mesh).empty());
+    EXPECT_TRUE(check_against(done.mesh, surface.mesh, surface.features).violations.empty());
+    EXPECT_GT(quality(done.mesh).min, quality(padded).min);
+    results.push_back(done.mesh);
+  }
+  set_threads(before);
+  EXPECT_EQ(results[0].hexes, results[1].hexes);
+  EXPECT_EQ(results[0].points, results[1].points);
+}
+
 TEST(MaximiseMinimum, ReachesTheBoundOfANode) {
   const std::map<std::string, double> bounds{{"(4,0,0)", 0.7698}, {"(0,4,4)", 0.9079}, {"(0,0,12)", 0.7608}};
   for (const auto& [name, bound] : bounds) {
@@ -100,4 +156,24 @@ TEST(MaximiseMinimum, KeepsTheBoundaryWhenTold) {
     if (complex.is_boundary_vertex(v)) {
       EXPECT_EQ(mesh.points[static_cast<std::size_t>(v)], before.points[static_cast<std::size_t>(v)]);
     }
+}
+
+TEST(MaximiseMinimum, SlidesOnTheShape) {
+  // A block whose inner vertices on one side are pushed together: only sliding along that side mends it.
+  HexMesh mesh = hex_grid({3, 3, 3});
+  const HexSurface surface = complete_hex_features(mesh);
+  for (Vec3& p : mesh.points)
+    if (p.z() == 3 && p.x() > 0 && p.x() < 3 && p.y() > 0 && p.y() < 3) p += Vec3(0.5 * (2 - p.x()), 0.4, 0);
+  for (Vec3& p : mesh.points)
+    if (p.x() == 1 && p.y() == 0 && p.z() == 0) p.x() = 1.7;  // on an edge of the block
+  ASSERT_GT(quality(mesh).min, 0);
+  ASSERT_LT(quality(mesh).min, 0.95);
+  HexMesh held = mesh;
+  MaximiseOptions hold;
+  hold.free_boundary = false;
+  maximise_minimum(held, hold, {});
+  EXPECT_LT(quality(held).min, 0.95);
+  maximise_minimum(mesh, surface.mesh, surface.features, {}, {});
+  EXPECT_GT(quality(mesh).min, 0.99);
+  EXPECT_TRUE(check_against(mesh, surface.mesh, surface.features, 1e-4).violations.empty());
 }

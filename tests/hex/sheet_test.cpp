@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/hex/check.hpp"
+#include "hexfield/hex/decompose.hpp"
 #include "hexfield/hex/hex_singular_graph.hpp"
+#include "hexfield/hex/hex_surface.hpp"
 #include "support/hex_meshes.hpp"
 
 using namespace hexfield;
@@ -48,6 +51,21 @@ void expect_same(const HexMesh& a, const HexMesh& b) {
 void expect_good(const HexMesh& mesh) {
   for (const auto& violation : check(mesh)) ADD_FAILURE() << violation.sentence;
   for (const auto& violation : check_for_sheets(mesh, build_hex_complex(mesh))) ADD_FAILURE() << violation.sentence;
+}
+
+// Cubes put together at random through faces; never two that only touch at an edge or a vertex.
+std::vector<std::array<int, 3>> random_blocks(int count, std::mt19937& random) {
+  std::vector<std::array<int, 3>> cells{{0, 0, 0}};
+  while (static_cast<int>(cells.size()) < count) {
+    std::array<int, 3> next = cells[random() % cells.size()];
+    next[random() % 3] += random() % 2 == 0 ? 1 : -1;
+    if (std::find(cells.begin(), cells.end(), next) != cells.end()) continue;
+    cells.push_back(next);
+    HexMesh mesh = hex_blocks(cells);
+    if (check(mesh).empty()) mesh = pad(mesh, build_hex_complex(mesh), 0.2);
+    if (!check(mesh).empty()) cells.pop_back();
+  }
+  return cells;
 }
 
 std::map<std::string, int> nodes(const HexMesh& mesh) {
@@ -179,6 +197,35 @@ TEST(Sheet, ClosedSheetAroundAHexIsAPillow) {
   const HexSheet sheet =
       sheet_of_edge(inflated.mesh, after, after.find_edge(inflated.twin_of[0], static_cast<int>(mesh.points.size())));
   expect_same(collapse_sheet(inflated.mesh, after, sheet), mesh);
+}
+
+TEST(Sheet, RandomSheetsOfRandomBlocksAreInflatedAndCollapsed) {
+  std::mt19937 random(3);
+  int sheets = 0;
+  for (int shape = 0; shape < 12; ++shape) {
+    HexMesh mesh = hex_blocks(random_blocks(3 + shape / 2, random));
+    mesh = pad(mesh, build_hex_complex(mesh), 0.2);
+    complete_hex_features(mesh);
+    mesh.hex_colours.clear();
+    for (std::size_t h = 0; h < mesh.hexes.size(); ++h) mesh.hex_colours.push_back(1);
+    DecomposeOptions options;
+    options.width = 1;
+    options.budget = 20000;
+    for (const DecomposeStep& step : decompose(mesh, options, {}, {}).steps) {
+      const HexComplex complex = build_hex_complex(mesh);
+      const Inflation inflated = inflate_sheet(mesh, complex, step.quads);
+      const HexComplex after = build_hex_complex(inflated.mesh);
+      EXPECT_TRUE(check_for_sheets(inflated.mesh, after).empty());
+      const int edge = after.find_edge(inflated.twin_of[0], static_cast<int>(mesh.points.size()));
+      const HexSheet sheet = sheet_of_edge(inflated.mesh, after, edge);
+      ASSERT_TRUE(sheet.simple);
+      EXPECT_EQ(sheet.hexes.size(), step.quads.size());
+      expect_same(collapse_sheet(inflated.mesh, after, sheet), mesh);
+      mesh = inflated.mesh;
+      ++sheets;
+    }
+  }
+  EXPECT_GT(sheets, 30);
 }
 
 TEST(Sheet, InflationOfANodeIsTheSplitOfItsTriangulation) {

@@ -24,7 +24,8 @@ std::vector<Variant> variants() {
   return {{"mesh.vtk", {MeshFormat::vtk, false}, false},  {"meshb.vtk", {MeshFormat::vtk, true}, false},
           {"mesh.msh", {MeshFormat::msh41, false}, true}, {"meshb.msh", {MeshFormat::msh41, true}, true},
           {"old.msh", {MeshFormat::msh22, false}, true},  {"oldb.msh", {MeshFormat::msh22, true}, true},
-          {"mesh.mesh", {std::nullopt, false}, false}};
+          {"mesh.mesh", {std::nullopt, false}, false},    {"mesh.vtu", {MeshFormat::vtu, false}, true},
+          {"meshb.vtu", {MeshFormat::vtu, true}, true}};
 }
 
 }  // namespace

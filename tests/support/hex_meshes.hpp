@@ -50,6 +50,25 @@ inline HexMesh hex_grid(std::array<int, 3> n, bool features = true) {
   return mesh;
 }
 
+/// Unit cubes at integer places, without features.
+inline HexMesh hex_blocks(const std::vector<std::array<int, 3>>& cells) {
+  static constexpr int corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  HexMesh mesh;
+  std::map<std::array<int, 3>, int> ids;
+  for (const auto& cell : cells) {
+    std::array<int, 8> hex{};
+    for (std::size_t k = 0; k < 8; ++k) {
+      const std::array<int, 3> p{cell[0] + corners[k][0], cell[1] + corners[k][1], cell[2] + corners[k][2]};
+      const auto [place, added] = ids.emplace(p, static_cast<int>(mesh.points.size()));
+      if (added) mesh.points.emplace_back(p[0], p[1], p[2]);
+      hex[k] = place->second;
+    }
+    mesh.hexes.push_back(hex);
+  }
+  return mesh;
+}
+
 /// Places of the vertices of a triangulation on the unit sphere, no triangle too thin.
 inline std::vector<Vec3> places_on_sphere(const SphereTriangulation& sphere) {
   const std::size_t n = sphere.rings.size();

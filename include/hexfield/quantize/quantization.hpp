@@ -17,6 +17,7 @@ enum class QuantizeMethod {
 struct QuantizeOptions {
   QuantizeMethod method = QuantizeMethod::pump;
   double target_hexes = 10000;  ///< scales the map: s^3 times its volume
+  int min_layers = 1;           ///< least length of every feature and singular arc, and of every separation
   double time_limit = 120;      ///< seconds of one integer program
 };
 
@@ -29,6 +30,7 @@ struct Quantization {
   std::int64_t hexes = 0;
   int rounds = 0;               ///< of separation search
   std::size_t separations = 0;  ///< constraints it found
+  std::size_t sheets = 0;       ///< pump: those that it pumped
   bool proven_optimal = false;  ///< ilp: for the constraints in force
 };
 
