@@ -152,7 +152,7 @@ void Schedule::relocate() {
 bool Schedule::meshable() {
   std::size_t defects = 0;
   timed("check", [&] {
-    defects = find_defects(state_.mesh, state_.features, state_.field, state_.codes).size();
+    defects = unrefuted_defects(state_).size();
     if (defects > 0) return 0;
     const std::vector<EdgeKey> edges = special_edges(state_);
     const Meshability found = check_meshability(state_, edges, vertices_of(edges));
