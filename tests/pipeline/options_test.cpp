@@ -69,9 +69,9 @@ TEST(Options, AWrongKeyNamesTheNearestOne) {
 TEST(Options, ValuesAreCheckedAgainstTypeAndRange) {
   RunOptions options;
   OptionTable table(options);
-  for (const char* bad :
-       {"target_hexes=many", "target_hexes=0", "target_hexes=nan", "target_hexes=1e99", "threads=1.5", "threads=-1",
-        "check=yes", "quantizer=best", "quantizer=", "min_layers=0", "feature_angle=181", "target_hexes=", "seed=99999999999999", "=3", "target_hexes"}) {
+  for (const char* bad : {"target_hexes=many", "target_hexes=0", "target_hexes=nan", "target_hexes=1e99", "threads=1.5",
+                          "threads=-1", "check=yes", "quantizer=best", "quantizer=", "min_layers=0",
+                          "feature_angle=181", "target_hexes=", "seed=99999999999999", "=3", "target_hexes"}) {
     EXPECT_EQ(failure([&] { table.set_assignment(bad); }).first, ExitCode::usage) << bad;
   }
   EXPECT_EQ(options.target_hexes, RunOptions().target_hexes);
