@@ -158,6 +158,26 @@ class Maker {
 
 }  // namespace
 
+const char* name(ExactFailure failure) {
+  switch (failure) {
+    case ExactFailure::none:
+      return "nothing fails";
+    case ExactFailure::not_finite:
+      return "parameters that are no numbers";
+    case ExactFailure::inverted_input:
+      return "tets inverted in the map";
+    case ExactFailure::unclear_index:
+      return "edges of unclear index";
+    case ExactFailure::not_seamless:
+      return "a broken transition or alignment";
+    case ExactFailure::contradiction:
+      return "contradicting alignments";
+    case ExactFailure::inverted_output:
+      return "tets that exactness inverts";
+  }
+  return "";
+}
+
 ExactSeamless make_exactly_seamless(const TetMesh& mesh, const Features& features, const SeamlessMap& map,
                                     double tolerance) {
   return Maker(mesh, features, map, tolerance).run();
