@@ -71,16 +71,6 @@ TEST(PathObjective, PumpAndProgramAgreeAndIntegerLengthsStay) {
   }
 }
 
-// Three widths of 1.4 beside each other: each rounds to 1, all of them together to 4.
-TEST(PathObjective, RoundingErrorsDoNotAddUpAlongAPath) {
-  const BlockComplex c = complex_of(slotted_box(14, 14, 14, 10, 10, 10));
-  const double target = 4.2 + 2.8;
-  EXPECT_EQ(quantize_complex(c, {.target_hexes = target}).hexes, 3 + 2);
-  const Quantization paths = quantize_complex(c, {.target_hexes = target, .objective = QuantizeObjective::paths});
-  EXPECT_GE(paths.hexes, 4 + 2);
-  EXPECT_LE(paths.hexes, 4 + 3);
-}
-
 TEST(LowerBounds, EveryLinkAndSeparationHasItsLayers) {
   for (const MappedMesh& m : {l_prism(3, 1, 2, 5, 6), ball(3, 4, 5, 1), slotted_box(3, 1, 4, 5, 2, 1),
                               polygon_prism({1, 2, 3}, 1), square_torus(6, 5, 2, 3)}) {
