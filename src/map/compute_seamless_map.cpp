@@ -179,7 +179,9 @@ class Stage {
     solve::NewtonOptions newton;
     newton.preconditioner = solve::Preconditioner::cholesky;
     newton.max_iterations = 60;
-    newton.decrease_tolerance = 1e-12;
+    // The gradient of a start with thin tets is huge, so it measures nothing.
+    newton.gradient_tolerance = 0;
+    newton.decrease_tolerance = 1e-8;
     const solve::EnergyTerm* terms[] = {&energy};
     if (!std::isfinite(solve::evaluate(comm_, terms, y.get()))) return start;
     monitor_.minimise(
