@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "hexfield/base/error.hpp"
@@ -91,6 +92,19 @@ const MapQuantizer& quantizer_of(RunState& state) {
   return *state.quantizer;
 }
 
+/// A chord over this angle of a circle is 2 % shorter than the arc.
+constexpr double max_turning_of_edge = 40 * std::numbers::pi / 180;
+
+/// Hex edges that a curved feature needs to keep its shape; none in coarse layouts of blocks, which are not to be.
+std::vector<std::int64_t> edges_for_curvature(const BlockComplex& complex, double hexes) {
+  std::vector<std::int64_t> least(complex.arcs.size(), 0);
+  if (hexes <= 1) return least;
+  for (std::size_t a = 0; a < least.size(); ++a)
+    if (complex.arcs[a].feature)
+      least[a] = static_cast<std::int64_t>(std::ceil(complex.arcs[a].turning / max_turning_of_edge - 0.01));
+  return least;
+}
+
 /// Integers for about this number of hexes. Rank 0.
 void quantize(RunState& state, const ConformingSpace& space, double hexes) {
   QuantizeOptions options;
@@ -102,6 +116,7 @@ void quantize(RunState& state, const ConformingSpace& space, double hexes) {
   const Clock::time_point start = Clock::now();
   QuantizeResult& result = state.quantization;
   const BlockComplex& complex = quantizer.complex();
+  options.least = edges_for_curvature(complex, hexes);
   result.integers = quantize_complex(complex, options);
   result.kind = name_of(result.integers.method);
   if (result.integers.method != options.method)
