@@ -167,6 +167,17 @@ def maps_for_others():
     yield from check("igm", len(corners) == 72 and all(x == round(x) for x in corners), "corners of the box off the lattice")
 
 
+def stops():
+    text = hexex(*prism_map((3, 4, 5), 2))
+    done, report, out = run_map("stops", text, "--target-hexes", "94", "--to", "igm", "--time-limit", "0.000001")
+    yield from check("stops", done.code == 9 and not (out / "igm.hexex").exists(), f"exit code {done.code}")
+    line = ["run", SCRATCH / "stops.hexex", "--from", "quantize", "-o", out, "--target-hexes", "94", "--to", "igm", "--resume"]
+    done = program.run(PROGRAM, RANKS, line)
+    stages = [(s["name"], s["restored"]) for s in json.loads((out / "report.json").read_text())["stages"]]
+    yield from check("stops", done.code == 0 and stages == [("map", True), ("quantize", False), ("igm", False)], stages)
+    yield from check("stops", (out / "igm.hexex").exists(), "no map after --resume")
+
+
 def refusals():
     good = box_map((2, 2, 2), (1, 1, 1), turned=False)
 
@@ -227,7 +238,7 @@ def usage():
 def main():
     shutil.rmtree(SCRATCH, ignore_errors=True)
     SCRATCH.mkdir(parents=True)
-    wrong = [str(w) for group in (boxes(), prisms(), layers(), maps_for_others(), refusals(), usage()) for w in group]
+    wrong = [str(w) for group in (boxes(), prisms(), layers(), maps_for_others(), stops(), refusals(), usage()) for w in group]
     print("\n".join(wrong))
     print(f"{len(wrong)} wrong on {RANKS} ranks")
     sys.exit(1 if wrong else 0)
