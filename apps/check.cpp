@@ -58,16 +58,18 @@ std::size_t check_checkpoint(const Checkpoint& checkpoint, bool meshability) {
     if (stage.name == "read") {
       const TetInput input = unpack_tet_input(arrays);
       defects += print_all(check(input.mesh)) + print_all(check(input.mesh, input.features));
-    } else if (stage.name == "field" || stage.name == "repair") {
+    } else if (stage.name == "field" || stage.name == "repair" || stage.name == "map") {
       field = unpack_field(arrays);
       defects += print_all(check(field.mesh)) + print_all(check(field.mesh, field.features));
       const auto graph = singularity_graph(field.mesh, field.features, field.field, field.codes);
       defects +=
           print_all(check(field.mesh, field.field)) + print_all(check(field.mesh, field.field, field.codes, graph));
       if (meshability) defects += print_meshability(field);
-    } else if (stage.name == "seamless") {
+    } else if (stage.name == "seamless" || stage.name == "quantize") {
       unpack_seamless(arrays, field.mesh.num_tets());
     } else if (stage.name == "igm") {
+      // The stage may have refined the mesh.
+      if (arrays.contains("points")) field = unpack_field(arrays);
       const IgmResult igm = unpack_igm(arrays, field.mesh.num_tets());
       if (igm.report.valid() && igm.quantization_valid) {
         defects += print_all(check_integer_grid(field.mesh, field.features, field.codes, igm.map));

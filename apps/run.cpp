@@ -84,12 +84,17 @@ ExitCode run_command(const RunLine& line) {
 void add_run(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Mesh INPUT with hexahedra: the whole way, or a part of it");
   auto line = std::make_shared<RunLine>();
-  command->add_option("INPUT", line->input, "Tet mesh with tagged features (.vtk, .msh, .mesh)")->required();
+  command
+      ->add_option("INPUT", line->input,
+                   "Tet mesh with tagged features (.vtk, .msh, .mesh), or a seamless map (.hexex)")
+      ->required();
   command->add_option("-o,--output", line->output, "Directory for everything that is written")->required();
   auto* hexes = command->add_option_group("size");
   add_keyed(*hexes, *line, "--target-hexes", "target_hexes", "Wanted number of hexes (10000)", "N");
   add_keyed(*hexes, *line, "--edge-length", "edge_length", "Wanted edge length in input units", "L");
   hexes->require_option(0, 1);
+  add_keyed(*command, *line, "--quantizer", "quantizer", "Integers by pump, ilp or rounding (pump)", "NAME");
+  add_keyed(*command, *line, "--min-layers", "min_layers", "Hexes along every feature and singular arc (1)", "K");
   command->add_option("--from", line->from,
                       "Compute this stage and all after it anew, those before from the checkpoint");
   command->add_option("--to", line->to, "End after this stage");

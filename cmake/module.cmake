@@ -14,13 +14,15 @@ endif()
 # The standard and Eigen headers that most files include, parsed once for all modules. Compiler caches do
 # without: they would miss on every file.
 option(HEXFIELD_PCH "Precompile common headers" ON)
+# hexfield_precompile(TARGET SOURCE [HEADERS...]): with the precompiled headers of SOURCE; where that is the target
+# itself, it makes them, the HEADERS among them.
 function(hexfield_precompile target source)
   if(NOT HEXFIELD_PCH OR CMAKE_CXX_COMPILER_LAUNCHER)
     return()
   endif()
   if(target STREQUAL source)
     target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <algorithm> <array>
-      <functional> <map> <optional> <span> <string> <vector>)
+      <functional> <map> <optional> <span> <string> <vector> ${ARGN})
   else()
     target_precompile_headers(${target} REUSE_FROM ${source})
   endif()

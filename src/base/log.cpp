@@ -70,7 +70,8 @@ void Log::open_file(const std::filesystem::path& file, bool append) {
   sinks_->file->set_error_handler([](const std::string&) {});
   sinks_->file->set_level(spdlog::level::debug);
   sinks_->file->set_pattern("%Y-%m-%d %H:%M:%S.%e %-8l %v");
-  sinks_->file->flush_on(spdlog::level::info);
+  // What a killed run did last must stand in its log.
+  sinks_->file->flush_on(spdlog::level::debug);
   for (const auto& [level, sentence] : sinks_->kept) sinks_->file->log(level_of(level), sentence);
   sinks_->kept.clear();
 }

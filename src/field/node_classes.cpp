@@ -80,6 +80,17 @@ NodeKind boundary_kind(const EdgeCounts& n) {
   return std::find(std::begin(valid), std::end(valid), c) != std::end(valid) ? NodeKind::node : NodeKind::invalid;
 }
 
+// An arc that leaves a feature curve and goes on beside it: the curve has its code on one side of v only. Where the arc
+// and the regular half of the curve leave v in parallel, they form a parabolic sector.
+bool is_leaving_curve(const EdgeCounts& n, const Features& features, VertexId v, const std::vector<EdgeKey>& edges) {
+  using Counts = std::array<int, 4>;
+  const Counts c{n.boundary_minus, n.boundary_plus, n.inner_minus, n.inner_plus};
+  if (n.other > 0 || (c != Counts{1, 0, 1, 0} && c != Counts{0, 1, 0, 1})) return false;
+  const bool on_curve =
+      std::any_of(edges.begin(), edges.end(), [&](const auto& e) { return features.edges.contains(e); });
+  return on_curve && !features.points.contains(v);
+}
+
 // A boundary edge of code +2 with (2,2), (2,0) or (0,2) others is plausible.
 bool is_flat_opening(const EdgeCounts& n, const std::vector<EdgeCode>& boundary_codes) {
   const auto twos = std::count(boundary_codes.begin(), boundary_codes.end(), 2);
@@ -90,8 +101,8 @@ bool is_flat_opening(const EdgeCounts& n, const std::vector<EdgeCode>& boundary_
 
 }  // namespace
 
-SingularNode classify_vertex(const TetMesh& mesh, const Features&, const FrameField& field, const EdgeCodes& codes,
-                             VertexId v, const std::vector<EdgeKey>& edges) {
+SingularNode classify_vertex(const TetMesh& mesh, const Features& features, const FrameField& field,
+                             const EdgeCodes& codes, VertexId v, const std::vector<EdgeKey>& edges) {
   SingularNode node;
   node.vertex = v;
   std::vector<EdgeCode> inner, boundary;
@@ -116,6 +127,8 @@ SingularNode classify_vertex(const TetMesh& mesh, const Features&, const FrameFi
     node.kind = transversal_kind(mesh, field, inner[0], v, edges[0]);
   } else if (is_flat_opening(node.counts, boundary)) {
     node.kind = NodeKind::node;
+  } else if (is_leaving_curve(node.counts, features, v, edges)) {
+    node.kind = NodeKind::zipper;
   } else {
     node.kind = boundary_kind(node.counts);
   }

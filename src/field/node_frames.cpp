@@ -1,6 +1,6 @@
 #include "node_frames.hpp"
 
-#include "exact_sum.hpp"
+#include "hexfield/base/exact_sum.hpp"
 #include "hexfield/base/parallel.hpp"
 
 namespace hexfield {

@@ -11,7 +11,6 @@
 namespace hexfield {
 namespace {
 
-constexpr int max_tries = 4;
 constexpr int max_rescalings = 4;
 
 /// What rank 0 knows of the seamless map.
@@ -84,8 +83,17 @@ std::optional<Rounded> round_near(const TetMesh& mesh, const Seamless& s, double
   return best;
 }
 
+// Where the shortest length is that the integers must keep.
+std::vector<Vec3> tightest_place(const TetMesh& mesh, const Seamless& s) {
+  const std::vector<Spacing> spacings = required_spacings(mesh, s.space, s.alignments, s.unknowns);
+  const auto shortest = std::min_element(spacings.begin(), spacings.end(),
+                                         [](const Spacing& a, const Spacing& b) { return a.length < b.length; });
+  if (shortest == spacings.end()) return {};
+  return {mesh.point(shortest->where)};
+}
+
 std::string reason_of(const IntegerOutcome& outcome, const MapReport& report) {
-  if (!outcome.reached) return "The integer coordinates that rounding chose cannot be reached without inverting a tet.";
+  if (!outcome.reached) return "The chosen integer coordinates cannot be reached without inverting a tet.";
   if (!report.inverted.empty()) return "The integer-grid map has inverted tets.";
   if (!report.wrong_edges.empty()) return "The integer-grid map has edges of the wrong image angle.";
   return "The integer-grid map is not aligned.";
@@ -98,6 +106,7 @@ class Stage {
 
   IgmResult run(const SeamlessMap& map, const IgmOptions& options) {
     choose_integers_ = options.choose_integers;
+    tries_ = options.tries;
     agree(comm_, [&] {
       if (root()) seamless_ = prepare(mesh_, features_, codes_, map, options);
     });
@@ -127,19 +136,21 @@ class Stage {
 
   void round_and_solve(const MapProblem& problem) {
     double scale = root() ? std::cbrt(seamless_.hexes / seamless_.map_volume) : 0;
-    for (int attempt = 0; attempt < max_tries; ++attempt, scale *= 1.12) {
+    for (int attempt = 0; attempt < tries_; ++attempt, scale *= 1.12) {
       bool found = false;
       Rounded rounded;
       agree(comm_, [&] {
         if (!root()) return;
         const std::optional<Rounded> best = choose(scale);
         found = best.has_value();
+        if (!found) result_.where = tightest_place(mesh_, seamless_);
         if (best) rounded = *best;
         scale = std::max(scale, rounded.scale);
       });
       broadcast(comm_, found);
       if (!found) {
-        result_.reason = "Rounding found no integers that keep all features and singular arcs apart.";
+        if (!result_.quantization_valid)
+          result_.reason = "No integers were found that keep all features and singular arcs apart.";
         continue;
       }
       result_.quantization_valid = true;
@@ -205,6 +216,7 @@ class Stage {
   const Control& control_;
   SolveMonitor monitor_;
   std::function<std::optional<IntegerChoice>(const ConformingSpace&, double)> choose_integers_;
+  int tries_ = 1;
   Seamless seamless_;
   IgmResult result_;
 };

@@ -17,13 +17,11 @@ namespace hexfield {
 namespace {
 
 constexpr int untangling_rounds = 30;
-/// Rounds for a map that is nearly valid, while better starts are still to come.
-constexpr int quick_rounds = 8;
-/// Share of inverted tets up to which untangling is tried at once: it then costs less than one stage of the
-/// integrable frames.
-constexpr double nearly_valid = 0.01;
+/// Share of defects up to which no frames are tried: so few tets stay turned over where arcs or features share a
+/// coordinate that they must not share, which no map of the space changes.
+constexpr double few_defects = 0.002;
 /// The frames are given up when this many stages in a row end without a better conforming map ...
-constexpr int max_idle_stages = 3;
+constexpr int max_idle_stages = 2;
 /// ... which has at most this share of the defects of the best one before.
 constexpr double progress_factor = 0.9;
 
@@ -59,17 +57,16 @@ class Stage {
     agree(comm_, [&] {
       if (root()) prepare();
     });
+    broadcast(comm_, some_tets_are_flat_);
     const MapProblem problem(comm_, mesh_, space_);
     edge_ = std::cbrt(problem.total_volume() / options_.target_hexes);
     Candidate best;
     if (!restore(problem, best)) {
       best = fitted(problem, field_frames());
-      if (!best.report.valid()) try_integrable_frames(problem, best);
-      if (!best.report.valid())
-        keep_better(best, judged(untangle(problem, best.unknowns, {}, edge_, untangling_rounds, monitor_)));
+      if (frames_may_help(problem, best.report)) try_integrable_frames(problem, best);
     }
     if (best.report.inverted.empty()) {
-      const Candidate polished = judged(polish(problem, best.unknowns));
+      const Candidate polished = judged(polish(problem, best.unknowns, newton_memory_));
       if (!best.better_than(polished)) best = polished;
     }
     return finish(best);
@@ -82,30 +79,42 @@ class Stage {
     constraints_ = collect_constraints(mesh_, features_, field_, codes_);
     space_ = conforming_space(mesh_, cut_graph(mesh_, field_.matchings, singular_edges(codes_)),
                               alignments_of_field(constraints_, features_, codes_));
+    some_tets_are_flat_ = !space_.collapsed.empty();
   }
 
   // The iterate of an interrupted polish, if there is one.
   bool restore(const MapProblem& problem, Candidate& best) {
     if (!control_.restore_iterate) return false;
-    const std::optional<std::vector<double>> iterate = control_.restore_iterate("seamless");
+    std::optional<std::vector<double>> iterate = control_.restore_iterate("seamless");
+    if (iterate) newton_memory_ = take_memory(*iterate);
     bool found = iterate.has_value() && (!root() || iterate->size() == space_.num_unknowns());
     broadcast(problem.comm(), found);
     if (found) best = judged(*iterate);
-    return found && best.report.inverted.empty();
+    if (found && best.report.inverted.empty()) return true;
+    newton_memory_.clear();
+    return false;
   }
 
   static void keep_better(Candidate& best, Candidate other) {
     if (other.better_than(best)) best = std::move(other);
   }
 
-  // The conforming fit to frames, untangled where only few tets are inverted.
-  Candidate fitted(const MapProblem& problem, const std::vector<Mat3>& frames) {
-    Candidate result = judged(fit(problem, frames));
+  bool frames_may_help(const MapProblem& problem, const MapReport& report) const {
     const auto tets = static_cast<double>(problem.distributed().num_global_tets());
-    const auto inverted = static_cast<double>(result.report.inverted.size());
-    if (inverted > 0 && inverted <= nearly_valid * tets)
-      keep_better(result, judged(untangle(problem, result.unknowns, {}, edge_, quick_rounds, monitor_)));
-    return result;
+    return !report.valid() && !some_tets_are_flat_ && defects(report) > few_defects * tets;
+  }
+
+  // The conforming fit to frames; where it is not valid, made positive, then untangled.
+  Candidate fitted(const MapProblem& problem, const std::vector<Mat3>& frames) {
+    Candidate best = judged(fit(problem, frames));
+    if (best.report.valid() || some_tets_are_flat_) return best;
+    make_positive(problem, best.unknowns, frames, monitor_, [&](const std::vector<double>& unknowns) {
+      keep_better(best, judged(unknowns));
+      return best.report.valid();
+    });
+    if (!best.report.inverted.empty())
+      keep_better(best, judged(untangle(problem, best.unknowns, {}, edge_, untangling_rounds, monitor_)));
+    return best;
   }
 
   // Conforming fits to the frames after each stage of their optimisation, until one is valid or they get no better:
@@ -162,17 +171,21 @@ class Stage {
     return problem.gather(y.get(), {});
   }
 
-  std::vector<double> polish(const MapProblem& problem, const std::vector<double>& start) {
+  std::vector<double> polish(const MapProblem& problem, const std::vector<double>& start,
+                             const std::vector<double>& memory) {
     solve::TetEnergy energy(solve::TetEnergy::Kind::symmetric_dirichlet);
     problem.add_elements(energy, problem.volume_weights(), problem.uniform_frames(edge_), {});
     const VecOwner y(problem.make_vector(start, false));
     solve::NewtonOptions newton;
     newton.preconditioner = solve::Preconditioner::cholesky;
     newton.max_iterations = 60;
-    newton.decrease_tolerance = 1e-12;
+    // The gradient of a start with thin tets is huge, so it measures nothing.
+    newton.gradient_tolerance = 0;
+    newton.decrease_tolerance = 1e-8;
     const solve::EnergyTerm* terms[] = {&energy};
     if (!std::isfinite(solve::evaluate(comm_, terms, y.get()))) return start;
-    monitor_.minimise(comm_, terms, y.get(), newton, "seamless map", [&] { return problem.gather(y.get(), {}); });
+    monitor_.minimise(
+        comm_, terms, y.get(), newton, "seamless map", [&] { return problem.gather(y.get(), {}); }, memory);
     return problem.gather(y.get(), {});
   }
 
@@ -217,7 +230,9 @@ class Stage {
   const Control& control_;
   SolveMonitor monitor_;
   ConformingSpace space_;
+  bool some_tets_are_flat_ = false;  ///< in every map of the space: there is no valid one
   double edge_ = 1;
+  std::vector<double> newton_memory_;  // rank 0: of an interrupted polish
   std::vector<AxisConstraint> constraints_;
 };
 

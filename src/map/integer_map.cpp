@@ -21,7 +21,7 @@ solve::TetEnergy dirichlet_energy(const MapProblem& problem, double edge, std::s
 
 double distance_to(const MapProblem& problem, Vec y, const std::vector<double>& integers) {
   double distance = 0;
-  if (problem.owns_integers()) {
+  if (problem.owns_unknowns()) {
     PetscInt begin = 0;
     const PetscScalar* values = nullptr;
     check_petsc(VecGetOwnershipRange(y, &begin, nullptr), "VecGetOwnershipRange");
@@ -51,11 +51,12 @@ bool inside(const MapProblem& problem, std::span<const solve::EnergyTerm* const>
 
 }  // namespace
 
-std::optional<IntegerGoal> unpack_goal(const std::vector<double>& row, const ConformingSpace& space) {
+std::optional<IntegerGoal> unpack_goal(std::vector<double> row, const ConformingSpace& space) {
+  std::vector<double> memory = take_memory(row);
   if (row.size() != 2 + space.num_integers + space.num_unknowns()) return std::nullopt;
   const auto integers = row.begin() + 2;
   const auto unknowns = integers + static_cast<std::ptrdiff_t>(space.num_integers);
-  return IntegerGoal{{integers, unknowns}, {unknowns, row.end()}, row[1], static_cast<int>(row[0])};
+  return IntegerGoal{{integers, unknowns}, {unknowns, row.end()}, row[1], static_cast<int>(row[0]), std::move(memory)};
 }
 
 int num_integer_phases() { return static_cast<int>(penalties.size()); }
@@ -66,6 +67,8 @@ IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal
   outcome.unknowns = goal.start;
   solve::NewtonOptions options;
   options.preconditioner = solve::Preconditioner::cholesky;
+  // The gradient of a start with thin tets is huge, so it measures nothing.
+  options.gradient_tolerance = 0;
   if (goal.first_phase < num_integer_phases()) {
     const VecOwner y(problem.make_vector(goal.start, false));
     const solve::TetEnergy energy = dirichlet_energy(problem, goal.edge, {});
@@ -73,13 +76,15 @@ IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal
     options.decrease_tolerance = 1e-4;
     for (int phase = goal.first_phase; phase < num_integer_phases(); ++phase) {
       solve::LeastSquares penalty;
-      if (problem.owns_integers())
+      if (problem.owns_unknowns())
         for (std::size_t i = 0; i < goal.integers.size(); ++i)
           penalty.add({{{problem.integer_index(i), 1.0}}, -goal.integers[i]},
                       penalties[static_cast<std::size_t>(phase)]);
       const solve::EnergyTerm* terms[] = {&energy, &penalty};
-      monitor.minimise(comm, terms, y.get(), options, "integer-grid map",
-                       [&] { return pack(phase, goal, problem.gather(y.get(), {})); });
+      monitor.minimise(
+          comm, terms, y.get(), options, "integer-grid map",
+          [&] { return pack(phase, goal, problem.gather(y.get(), {})); },
+          phase == goal.first_phase ? goal.memory : std::vector<double>());
     }
     outcome.distance = distance_to(problem, y.get(), goal.integers);
     outcome.unknowns = problem.gather(y.get(), {});
@@ -95,9 +100,11 @@ IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal
   if (!inside(problem, terms, outcome.unknowns)) return outcome;
   const VecOwner y(problem.make_vector(outcome.unknowns, true));
   options.max_iterations = 100;
-  options.decrease_tolerance = 1e-12;
-  monitor.minimise(comm, terms, y.get(), options, "integer-grid map",
-                   [&] { return pack(num_integer_phases(), goal, problem.gather(y.get(), goal.integers)); });
+  options.decrease_tolerance = 1e-10;
+  monitor.minimise(
+      comm, terms, y.get(), options, "integer-grid map",
+      [&] { return pack(num_integer_phases(), goal, problem.gather(y.get(), goal.integers)); },
+      goal.first_phase == num_integer_phases() ? goal.memory : std::vector<double>());
   outcome.unknowns = problem.gather(y.get(), goal.integers);
   outcome.reached = true;
   return outcome;

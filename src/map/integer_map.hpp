@@ -11,6 +11,7 @@ struct IntegerGoal {
   std::vector<double> start;     ///< rank 0: all unknowns of an injective map
   double edge = 1;               ///< domain length of one parameter step
   int first_phase = 0;           ///< where to go on after a restart
+  std::vector<double> memory;    ///< rank 0: that of Newton's method there
 };
 
 struct IntegerOutcome {
@@ -21,7 +22,7 @@ struct IntegerOutcome {
 
 /// Where an interrupted run of reach_integers() stood, from the iterate it offered; nullopt when the row does
 /// not fit the space.
-std::optional<IntegerGoal> unpack_goal(const std::vector<double>& row, const ConformingSpace& space);
+std::optional<IntegerGoal> unpack_goal(std::vector<double> row, const ConformingSpace& space);
 
 /// Number of penalty phases before the integers are fixed.
 int num_integer_phases();

@@ -3,10 +3,12 @@
 #include <petscvec.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "collective.hpp"
 #include "hexfield/base/agree.hpp"
+#include "hexfield/base/exact_sum.hpp"
 #include "hexfield/base/petsc.hpp"
 
 namespace hexfield {
@@ -84,39 +86,22 @@ void MapProblem::deal_rows() {
   std::vector<std::vector<PetscInt>> rows(owned.size());
   std::vector<std::vector<PetscInt>> columns(owned.size());
   std::vector<std::vector<std::int32_t>> coefficients(owned.size());
-  std::vector<PetscInt> shares(owned.size(), 0);
   agree(comm_, [&] {
     if (rank_of(comm_) != 0) return;
-    order_.assign(space.num_reals, -1);
-    PetscInt next = 0;
-    for (std::size_t r = 0; r < owned.size(); ++r) {
-      const PetscInt before = next;
-      for (std::int64_t t : owned[r])
-        for (std::int32_t c : space.cut.classes[static_cast<std::size_t>(t)])
-          for (std::size_t x = 3 * static_cast<std::size_t>(c); x < 3 * static_cast<std::size_t>(c) + 3; ++x)
-            for (std::size_t k = space.row_start[x]; k < space.row_start[x + 1]; ++k) {
-              const auto column = static_cast<std::size_t>(space.columns[k]);
-              if (column < space.num_reals && order_[column] < 0) order_[column] = next++;
-            }
-      shares[r] = next - before;
-    }
     for (std::size_t r = 0; r < owned.size(); ++r)
       for (std::int64_t t : owned[r])
         for (std::int32_t c : space.cut.classes[static_cast<std::size_t>(t)])
           for (std::size_t x = 3 * static_cast<std::size_t>(c); x < 3 * static_cast<std::size_t>(c) + 3; ++x) {
             rows[r].push_back(static_cast<PetscInt>(space.row_start[x + 1] - space.row_start[x]));
             for (std::size_t k = space.row_start[x]; k < space.row_start[x + 1]; ++k) {
-              const auto column = static_cast<std::size_t>(space.columns[k]);
-              columns[r].push_back(column < space.num_reals ? order_[column] : static_cast<PetscInt>(column));
+              columns[r].push_back(static_cast<PetscInt>(space.columns[k]));
               coefficients[r].push_back(space.coefficients[k]);
             }
           }
-    require(next == static_cast<PetscInt>(space.num_reals), "An unknown of the map belongs to no tet.");
   });
   rows_ = deal(comm_, MPIU_INT, rows);
   columns_ = deal(comm_, MPIU_INT, columns);
   coefficients_ = deal(comm_, MPI_INT32_T, coefficients);
-  MPI_Scatter(shares.data(), 1, MPIU_INT, &local_reals_, 1, MPIU_INT, 0, comm_);
   PetscInt sizes[2] = {static_cast<PetscInt>(space.num_reals), static_cast<PetscInt>(space.num_integers)};
   MPI_Bcast(sizes, 2, MPIU_INT, 0, comm_);
   num_reals_ = sizes[0];
@@ -151,6 +136,14 @@ std::vector<double> MapProblem::volume_weights() const {
   return weights;
 }
 
+std::vector<double> MapProblem::length_weights() const {
+  std::vector<double> weights = volumes_;
+  for (double& w : weights) w = std::cbrt(w);
+  const double sum = exact_sum(comm_, weights);
+  for (double& w : weights) w /= sum;
+  return weights;
+}
+
 std::vector<Mat3> MapProblem::uniform_frames(double edge) const {
   return std::vector<Mat3>(num_tets(), edge * Mat3::Identity());
 }
@@ -164,45 +157,28 @@ std::vector<Mat3> MapProblem::scatter_matrices(std::span<const Mat3> on_root) co
   return matrices;
 }
 
-bool MapProblem::owns_integers() const { return rank_of(comm_) + 1 == size_of(comm_); }
+bool MapProblem::owns_unknowns() const { return rank_of(comm_) == 0; }
 
 Vec MapProblem::make_vector(std::span<const double> on_root, bool reals_only) const {
-  const PetscInt local = local_reals_ + (reals_only || !owns_integers() ? 0 : num_integers_);
+  const PetscInt size = num_reals_ + (reals_only ? 0 : num_integers_);
   Vec y = nullptr;
-  check_petsc(VecCreateMPI(comm_, local, PETSC_DETERMINE, &y), "VecCreateMPI");
-  if (rank_of(comm_) == 0)
-    for (std::size_t i = 0; i < on_root.size(); ++i) {
-      const bool real = i < static_cast<std::size_t>(num_reals_);
-      if (!real && reals_only) break;
-      check_petsc(VecSetValue(y, real ? order_[i] : static_cast<PetscInt>(i), on_root[i], INSERT_VALUES),
-                  "VecSetValue");
-    }
-  check_petsc(VecAssemblyBegin(y), "VecAssemblyBegin");
-  check_petsc(VecAssemblyEnd(y), "VecAssemblyEnd");
+  check_petsc(VecCreateMPI(comm_, owns_unknowns() ? size : 0, size, &y), "VecCreateMPI");
+  if (!owns_unknowns()) return y;
+  PetscScalar* data = nullptr;
+  check_petsc(VecGetArray(y, &data), "VecGetArray");
+  std::copy_n(on_root.begin(), size, data);
+  check_petsc(VecRestoreArray(y, &data), "VecRestoreArray");
   return y;
 }
 
 std::vector<double> MapProblem::gather(Vec y, std::span<const double> fixed) const {
-  VecScatter scatter = nullptr;
-  Vec all = nullptr;
-  check_petsc(VecScatterCreateToZero(y, &scatter, &all), "VecScatterCreateToZero");
-  check_petsc(VecScatterBegin(scatter, y, all, INSERT_VALUES, SCATTER_FORWARD), "VecScatterBegin");
-  check_petsc(VecScatterEnd(scatter, y, all, INSERT_VALUES, SCATTER_FORWARD), "VecScatterEnd");
   std::vector<double> values;
-  if (rank_of(comm_) == 0) {
-    const PetscScalar* data = nullptr;
-    check_petsc(VecGetArrayRead(all, &data), "VecGetArrayRead");
-    values.resize(static_cast<std::size_t>(num_reals_ + num_integers_));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (i < order_.size())
-        values[i] = data[order_[i]];
-      else
-        values[i] = fixed.empty() ? data[i] : fixed[i - order_.size()];
-    }
-    check_petsc(VecRestoreArrayRead(all, &data), "VecRestoreArrayRead");
-  }
-  check_petsc(VecScatterDestroy(&scatter), "VecScatterDestroy");
-  check_petsc(VecDestroy(&all), "VecDestroy");
+  if (!owns_unknowns()) return values;
+  const PetscScalar* data = nullptr;
+  check_petsc(VecGetArrayRead(y, &data), "VecGetArrayRead");
+  values.assign(data, data + num_reals_ + (fixed.empty() ? num_integers_ : 0));
+  check_petsc(VecRestoreArrayRead(y, &data), "VecRestoreArrayRead");
+  values.insert(values.end(), fixed.begin(), fixed.end());
   return values;
 }
 

@@ -30,8 +30,8 @@ class VecOwner {
 /// The tets of a mesh, dealt to the ranks, with their corner coordinates in terms of the unknowns of a
 /// conforming space that rank 0 holds: what the minimisations of the map module work on.
 ///
-/// Unknowns of the distributed vectors: the real ones, numbered such that each rank owns those its tets
-/// touch first, then the integer ones, which the last rank owns.
+/// The unknowns of the vectors are those of the space, in its order, and rank 0 owns them all: the element work is
+/// shared, the factorisations are not, and results are the same bytes for any number of ranks.
 class MapProblem {
  public:
   /// `mesh` and `space` are read on rank 0 and must outlive the object there. Collective.
@@ -61,21 +61,22 @@ class MapProblem {
   }
   /// Share of every owned tet in the total volume.
   std::vector<double> volume_weights() const;
+  /// Weights of the same sum that grow with the edge length of a tet (cube root of its volume) only.
+  std::vector<double> length_weights() const;
   /// The same frame for every owned tet: `edge` times the identity.
   std::vector<Mat3> uniform_frames(double edge) const;
   /// Sends one matrix per tet from rank 0 to its owner. Collective.
   std::vector<Mat3> scatter_matrices(std::span<const Mat3> on_root) const;
 
-  /// A vector of the unknowns (without the integer ones when `reals_only`) with values from rank 0, given
-  /// in the order of the space. Collective; the caller destroys it.
+  /// A vector of the unknowns (without the integer ones when `reals_only`) with values from rank 0.
+  /// Collective; the caller destroys it.
   Vec make_vector(std::span<const double> on_root, bool reals_only) const;
-  /// The values of such a vector in the order of the space, on rank 0 (empty elsewhere). With reals only,
-  /// `fixed` completes it. Collective.
+  /// The values of such a vector on rank 0 (empty elsewhere). With reals only, `fixed` completes it.
   std::vector<double> gather(Vec y, std::span<const double> fixed) const;
-  /// Distributed index of integer unknown i.
+  /// Index of integer unknown i.
   PetscInt integer_index(std::size_t i) const { return num_reals_ + static_cast<PetscInt>(i); }
-  /// Whether this rank owns the integer unknowns.
-  bool owns_integers() const;
+  /// Whether this rank owns the unknowns.
+  bool owns_unknowns() const;
 
  private:
   void corners_of(std::size_t tet, std::span<const double> fixed, std::array<solve::AffineScalar, 12>& corners) const;
@@ -87,15 +88,13 @@ class MapProblem {
   DistributedMesh distributed_;
   PetscInt num_reals_ = 0;
   PetscInt num_integers_ = 0;
-  PetscInt local_reals_ = 0;
   double total_volume_ = 0;
   std::vector<double> volumes_;
   std::vector<solve::GradientOperator> gradients_;
-  std::vector<PetscInt> rows_;     // 12 per owned tet: number of entries
-  std::vector<PetscInt> columns_;  // distributed numbering, integers included
+  std::vector<PetscInt> rows_;  // 12 per owned tet: number of entries
+  std::vector<PetscInt> columns_;
   std::vector<std::int32_t> coefficients_;
   std::vector<std::size_t> first_;  // of each owned tet in columns_
-  std::vector<PetscInt> order_;     // rank 0: distributed number of each real unknown
 };
 
 }  // namespace hexfield

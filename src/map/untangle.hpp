@@ -1,19 +1,26 @@
 #pragma once
 
+#include <functional>
+
 #include "map_problem.hpp"
 #include "solve_monitor.hpp"
 
 namespace hexfield {
 
 /// Makes inverted tets positive by minimising the regularised distortion with a falling epsilon (Garanzha et
-/// al. 2021), from `start` (all unknowns, on rank 0), towards parameter steps of `edge` in the domain. With
-/// `fixed` not empty the integer unknowns stay at these values. Returns the unknowns on rank 0; they may still
-/// have inverted tets when it does not succeed within `max_rounds` or the least determinant stops growing: where it
-/// succeeds, a round about halves it or better. Collective.
+/// al. 2021), from `start` (all unknowns, on rank 0), towards parameter steps of `edge` in the domain. Tets weigh by
+/// their edge length, so that the small ones near singularities are heard. With `fixed` not empty the integer
+/// unknowns stay at these values. Returns the unknowns on rank 0; they may still have inverted tets when it does not
+/// succeed within `max_rounds` or their number stops falling. Collective.
 std::vector<double> untangle(const MapProblem& problem, const std::vector<double>& start,
                              const std::vector<double>& fixed, double edge, int max_rounds, SolveMonitor& monitor);
 
-/// Smallest det J edge^3 over the tets of a map with these unknowns. Serial.
-double smallest_determinant(const TetMesh& mesh, const ConformingSpace& space, std::span<const double> y, double edge);
+/// The fit to `frames` (per tet on rank 0, combed, columns are the steps of one parameter unit) under a growing
+/// convex penalty where the symmetric part of J F is not safely positive: a fit turns tets over where the frames are
+/// far from integrable, and this moves whole singular arcs across such places while every tet stays turned as its
+/// frame is, so no edge is wound the wrong number of times. After every growth of the penalty `done` is asked, on
+/// all ranks, with the unknowns on rank 0. Returns the last unknowns on rank 0. Collective.
+std::vector<double> make_positive(const MapProblem& problem, std::vector<double> start, const std::vector<Mat3>& frames,
+                                  SolveMonitor& monitor, const std::function<bool(const std::vector<double>&)>& done);
 
 }  // namespace hexfield

@@ -46,20 +46,47 @@ Json map_json(const MapReport& report) {
           {"max_residual", report.max_residual}};
 }
 
+Json quantization_json(const QuantizeResult& result) {
+  const bool integers = result.kind != "rounding";
+  const auto only = [&](auto value) { return integers ? Json(value) : Json(); };
+  const Quantization& q = result.integers;
+  return {{"valid", integers},
+          {"kind", result.kind},
+          {"arcs", only(result.arcs)},
+          {"blocks", only(result.blocks)},
+          {"hexes", only(q.hexes)},
+          {"nodes", only(result.nodes)},
+          {"patches", only(result.patches)},
+          {"euler", only(result.euler)},
+          {"objective", only(q.objective)},
+          {"scale", only(q.scale)},
+          {"rounds", only(q.rounds)},
+          {"separations", only(q.separations)},
+          {"sheets", only(q.sheets)},
+          {"proven_optimal", only(q.proven_optimal)},
+          {"largest_move", result.largest_move},
+          {"seconds", result.seconds},
+          {"notes", result.notes}};
+}
+
 }  // namespace
 
 std::string place_text(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
 
-void judge_seamless(RunState& state) {
+void judge_seamless(RunState& state) { judge_seamless_within(state, MapReport::residual_tolerance); }
+
+void judge_seamless_within(RunState& state, double residual) {
   const MapReport& report = state.seamless.report;
   state.report["seamless"] = map_json(report);
   state.report["seamless"]["linear_iterations"] = state.seamless.linear_iterations;
-  if (report.valid()) return;
+  if (report.inverted.empty() && report.wrong_edges.empty() && report.max_residual <= residual) return;
   const std::vector<Vec3> places = note_map_culprits(state, report);
   throw Error(ExitCode::no_seamless_map,
               fmt::format("There is no valid seamless map for this field: {}.", map_sentence(state, report)), {},
               places);
 }
+
+void judge_quantization(RunState& state) { state.report["quantization"] = quantization_json(state.quantization); }
 
 void judge_igm(RunState& state) {
   const IgmResult& igm = state.igm;
@@ -68,13 +95,13 @@ void judge_igm(RunState& state) {
     volume += (corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]) / 6;
   }
   state.report["igm"] = map_json(igm.report);
+  state.report["igm"]["newton_steps"] = igm.newton_steps;
   state.report["igm"]["linear_iterations"] = igm.linear_iterations;
   const bool valid = igm.report.valid() && igm.quantization_valid;
-  state.report["quantization"] = {{"valid", igm.quantization_valid},
-                                  {"kind", "rounding"},
-                                  {"arcs", nullptr},
-                                  {"blocks", nullptr},
-                                  {"hexes", valid ? Json(std::llround(volume)) : Json()}};
+  state.report["quantization"] = quantization_json(state.quantization);
+  state.report["quantization"]["valid"] = igm.quantization_valid;
+  if (valid || state.quantization.kind == "rounding")
+    state.report["quantization"]["hexes"] = valid ? Json(std::llround(volume)) : Json();
   if (valid) return;
   std::vector<Vec3> places = igm.where;
   for (const Vec3& p : note_map_culprits(state, igm.report)) places.push_back(p);

@@ -2,6 +2,7 @@
 
 #include "hexfield/base/error.hpp"
 #include "hexfield/field/singularity_graph.hpp"
+#include "hexfield/repair/meshability.hpp"
 #include "stages.hpp"
 
 namespace hexfield {
@@ -68,7 +69,7 @@ void judge_repair(RunState& state) {
   state.report["repair"] = {
       {"iterations", repair.iterations}, {"operations", repair.operations}, {"seconds", repair.seconds}};
   const FieldResult& f = state.field;
-  const std::vector<Defect> defects = find_defects(f.mesh, f.features, f.field, f.codes);
+  const std::vector<Defect> defects = unrefuted_defects(FieldView(f.mesh, f.features, f.field, f.codes));
   if (defects.empty()) return;
   std::vector<Vec3> places;
   const auto [edges, vertices] = note_defects(state, defects, places);

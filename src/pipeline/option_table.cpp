@@ -75,6 +75,10 @@ OptionTable::OptionTable(RunOptions& o) {
       {"repair.alignment_weight", "repair", &o.repair.alignment_weight, 0},
       {"repair.post_remesh_rounds", "repair", &o.repair.post_remesh_rounds, 0},
       {"seamless.max_misalignment_degrees", "seamless", &o.seamless.max_misalignment_degrees, 0, 180},
+      {"quantizer", "quantize", &o.quantizer, 0, 0, {"pump", "ilp", "rounding"}},
+      {"min_layers", "quantize", &o.min_layers, 1, 1000},
+      {"quantize.ilp_time_limit", "quantize", &o.ilp_time_limit, 0},
+      {"quantize.fallback", "igm", &o.fallback, 0, 0, {"none", "rounding"}},
       {"improve.max_rounds", "improve", &o.improve.max_rounds, 0},
       {"improve.max_untangle_rounds", "improve", &o.improve.max_untangle_rounds, 0},
       {"improve.smoothing_rounds", "improve", &o.improve.smoothing_rounds, 0},
@@ -108,6 +112,11 @@ void OptionTable::set(const std::string& key, const std::string& text, ExitCode 
     **flag = text == "true";
   } else if (auto* list = std::get_if<std::vector<std::string>*>(&entry->value)) {
     **list = split_list(text);
+  } else if (auto* word = std::get_if<std::string*>(&entry->value)) {
+    const auto& words = entry->words;
+    if (std::find(words.begin(), words.end(), text) == words.end())
+      refuse(fmt::format("it is {}", fmt::join(words, " or ")));
+    **word = text;
   } else if (auto* whole = std::get_if<int*>(&entry->value)) {
     int value = 0;
     if (!parse_number(text, value)) refuse("it is a whole number");
@@ -145,6 +154,7 @@ std::string value_text(const OptionEntry& entry) {
   if (auto* whole = std::get_if<int*>(&entry.value)) return fmt::format("{}", **whole);
   if (auto* list = std::get_if<std::vector<std::string>*>(&entry.value))
     return fmt::format("{}", fmt::join(**list, ","));
+  if (auto* word = std::get_if<std::string*>(&entry.value)) return **word;
   return fmt::format("{}", *std::get<double*>(entry.value));
 }
 

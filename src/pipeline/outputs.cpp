@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <system_error>
@@ -12,7 +14,10 @@
 #include "hexfield/io/debug_vtk.hpp"
 #include "hexfield/io/format.hpp"
 #include "hexfield/io/hex_io.hpp"
+#include "hexfield/io/hexex_io.hpp"
+#include "hexfield/io/tet_io.hpp"
 #include "hexfield/io/whole_file.hpp"
+#include "stages.hpp"
 
 namespace hexfield {
 namespace fs = std::filesystem;
@@ -102,6 +107,35 @@ void write_why(const RunState& state) {
   picture.write(state.options.output / "why.vtk", {"kind", "id"});
 }
 
+/// Triangles of the walls, once for each block beside them, and lines of the arcs. `length` is that of an arc in hexes.
+void write_blocks(const RunState& state) {
+  const BlockPicture& blocks = state.quantization.picture;
+  Picture picture(blocks.points);
+  for (std::size_t i = 0; i < blocks.triangles.size(); ++i) {
+    const auto& [patch, block, other, boundary] = blocks.walls[i];
+    for (const std::int32_t b : {block, other})
+      if (b >= 0) picture.add(blocks.triangles[i], {b, patch, -1, boundary, 0, 0, 0});
+  }
+  for (std::size_t i = 0; i < blocks.lines.size(); ++i) {
+    const auto& [arc, code, feature, length] = blocks.arcs[i];
+    picture.add(blocks.lines[i], {-1, -1, arc, 0, code, feature, length});
+  }
+  picture.write(state.options.output / "blocks.vtk",
+                {"block", "patch", "arc", "boundary", "code", "feature", "length"});
+}
+
+/// The map of the stage that the run ended with, for other tools.
+std::optional<std::string> write_map(const RunState& state) {
+  const FieldResult& f = state.field;
+  const std::string& last = state.options.to;
+  const bool integer = last == "igm";
+  const CornerMap& map = integer ? state.igm.map : state.seamless.map;
+  if (map.uvw.empty() || (!integer && last != "seamless" && last != "quantize")) return std::nullopt;
+  const std::string name = integer ? "igm.hexex" : "seamless.hexex";
+  write_hexex(state.options.output / name, f.mesh, map, f.features);
+  return name;
+}
+
 }  // namespace
 
 void write_results(const RunState& state, bool failed) {
@@ -125,15 +159,26 @@ void write_results(const RunState& state, bool failed) {
     write_singularities(state);
     written.insert("singularities.vtk");
   }
+  // What a judge of the hex mesh compares it with: a map comes without such a file.
+  if (is_map_file(state.options.input) && state.field.mesh.num_tets() > 0) {
+    write_tet_mesh(directory / "tets.vtk", state.field.mesh, state.field.features);
+    written.insert("tets.vtk");
+  }
+  if (!state.quantization.picture.triangles.empty()) {
+    write_blocks(state);
+    written.insert("blocks.vtk");
+  }
+  if (const auto name = failed ? std::nullopt : write_map(state)) written.insert(*name);
   if (failed && !state.culprits.empty()) {
     write_why(state);
     written.insert("why.vtk");
   }
+  const auto names = {"singularities.vtk", "blocks.vtk", "tets.vtk", "seamless.hexex", "igm.hexex", "why.vtk"};
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(directory, ignored)) {
     const std::string name = entry.path().filename().string();
     const bool mesh = name.starts_with("hex.") && format_of_name(entry.path().extension().string()).has_value();
-    const bool ours = mesh || name == "singularities.vtk" || name == "why.vtk";
+    const bool ours = mesh || std::find(names.begin(), names.end(), name) != names.end();
     if (ours && written.count(name) == 0) fs::remove(entry.path(), ignored);
   }
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <system_error>
 
@@ -24,17 +26,19 @@ using Json = nlohmann::ordered_json;
 
 /// Hash of everything that the value of each stage depends on: the input, and its options and those of the stages
 /// before it. Numbers of ranks and threads are not among them.
-std::vector<std::string> stage_bases(const RunOptions& options, const std::string& input_hash) {
+std::map<std::string, std::string> stage_bases(const RunOptions& options, const std::string& input_hash) {
   RunOptions copy = options;
   const OptionTable table(copy);
-  std::vector<std::string> bases;
-  std::string before = fmt::format("schema {} input {}", checkpoint_schema, input_hash);
+  std::map<std::string, std::string> bases;
+  std::string before =
+      fmt::format("schema {} input {}{}", checkpoint_schema, input_hash, is_map_file(options.input) ? " map" : "");
   for (const std::string& stage : stage_names()) {
     std::string text = before + "\n" + stage + "\n";
     for (const OptionEntry& entry : table.entries()) {
       if (entry.stage == stage) text += fmt::format("{}={}\n", entry.key, value_text(entry));
     }
-    bases.push_back(before = sha256(text));
+    bases[stage] = before = sha256(text);
+    if (stage == "seamless") bases["map"] = before;
   }
   return bases;
 }
@@ -47,7 +51,8 @@ class Runner {
         safe_points_(team, options.time_limit, options.checkpoint_interval),
         state_{.team = team, .options = options, .log = log, .safe_points = safe_points_},
         log_(log),
-        options_(options) {}
+        options_(options),
+        stages_(is_map_file(options.input) ? map_stages() : all_stages()) {}
 
   Outcome go();
 
@@ -65,7 +70,7 @@ class Runner {
   void judge(const Stage& stage);
   Outcome finish(Outcome outcome, const std::vector<Vec3>& where);
   std::string success_sentence() const;
-  bool continues() const { return options_.resume || !options_.from.empty(); }
+  bool continues() const { return options_.resume || !from_stage_.empty(); }
   std::size_t index_of(const std::string& stage) const;
 
   Team& team_;
@@ -74,9 +79,10 @@ class Runner {
   Log& log_;
   const RunOptions& options_;
   Ledger ledger_;
-  std::vector<Stage> stages_ = all_stages();
+  std::vector<Stage> stages_;
   std::vector<std::string> bases_;
   std::optional<Checkpoint> checkpoint_;  // rank 0
+  std::string from_stage_;                // empty: no --from, or the one with which a map enters the line
   std::size_t from_ = 0;                  // stages from here on are computed in any case
   std::size_t last_ = 0;
   std::string current_;
@@ -86,13 +92,22 @@ class Runner {
 
 std::size_t Runner::index_of(const std::string& stage) const {
   const std::string name = resolve_stage(stage);
-  std::size_t index = 0;
-  while (stages_[index].name != name) ++index;
-  return index;
+  const auto found = std::find_if(stages_.begin(), stages_.end(), [&](const Stage& s) { return s.name == name; });
+  if (found == stages_.end()) {
+    throw Error(ExitCode::usage,
+                fmt::format("{} holds a seamless map: it enters at stage quantize, there is no stage {} for it.",
+                            options_.input.string(), name));
+  }
+  return static_cast<std::size_t>(found - stages_.begin());
 }
 
 void Runner::prepare() {
   from_ = options_.from.empty() ? stages_.size() : index_of(options_.from);
+  from_stage_ = options_.from;
+  if (is_map_file(options_.input) && options_.from == "quantize") {
+    from_stage_.clear();
+    from_ = stages_.size();
+  }
   last_ = options_.to.empty() ? stages_.size() - 1 : index_of(options_.to);
   if (from_ < stages_.size() && from_ > last_) {
     throw Error(ExitCode::usage, fmt::format("--from {} comes after --to {}.", options_.from, options_.to));
@@ -100,19 +115,20 @@ void Runner::prepare() {
   state_.report = empty_report(options_, team_.size(), threads());
   team_.on_root([&] {
     const std::string hash = sha256_of_file(options_.input);
-    bases_ = stage_bases(options_, hash);
+    const std::map<std::string, std::string> bases = stage_bases(options_, hash);
+    for (const Stage& stage : stages_) bases_.push_back(bases.at(stage.name));
     state_.report["input"]["hash"] = "sha256:" + hash;
     checkpoint_.emplace(options_.output / "run.h5", hash);
     if (continues()) open_checkpoint();
   });
   bases_.resize(stages_.size());
-  safe_points_.keep_iterates_in(options_.output, options_.resume && options_.from.empty());
+  safe_points_.keep_iterates_in(options_.output, options_.resume && from_stage_.empty());
 }
 
 void Runner::open_checkpoint() {
   std::error_code failure;
   if (!std::filesystem::exists(checkpoint_->file(), failure)) {
-    if (!options_.from.empty() && from_ > 0) {
+    if (!from_stage_.empty() && from_ > 0) {
       throw Error(ExitCode::bad_input,
                   fmt::format("--from {}: there is no checkpoint {}.", options_.from, checkpoint_->file().string()));
     }
@@ -129,7 +145,7 @@ void Runner::open_checkpoint() {
             found.file().string(), options_.input.string(), found.input_hash(), checkpoint_->input_hash()));
   }
   checkpoint_.emplace(std::move(found));
-  for (std::size_t i = 0; i < from_ && !options_.from.empty(); ++i) {
+  for (std::size_t i = 0; i < from_ && !from_stage_.empty(); ++i) {
     const StageEntry* entry = checkpoint_->find(stages_[i].name);
     if (entry == nullptr || entry->basis != bases_[i]) {
       throw Error(ExitCode::bad_input,
@@ -249,7 +265,7 @@ void Runner::run_stage(std::size_t index) {
 // locally meshable or has no seamless map.
 bool Runner::try_again(const Error& error) {
   const bool worth_it = error.code() == ExitCode::not_meshable || error.code() == ExitCode::no_seamless_map;
-  if (!worth_it || state_.attempt + 1 >= options_.tries) return false;
+  if (!worth_it || is_map_file(options_.input) || state_.attempt + 1 >= options_.tries) return false;
   const std::size_t repair = index_of("repair");
   team_.on_root([&] {
     log_.warning(

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "hexfield/io/tet_io.hpp"
 #include "hexfield/map/compute_map.hpp"
 #include "hexfield/pipeline/options.hpp"
+#include "hexfield/quantize/map_quantizer.hpp"
+#include "quantize_values.hpp"
 #include "safe_points.hpp"
 #include "team.hpp"
 
@@ -49,9 +52,12 @@ struct RunState {
   TetInput input{};
   FieldResult field{};  ///< of stage field, then of stage repair
   RepairReport repair{};
-  int attempt = 0;  ///< which setting of the repair is being tried, on all ranks
-  SeamlessResult seamless{};
+  int attempt = 0;            ///< which setting of the repair is being tried, on all ranks
+  SeamlessResult seamless{};  ///< of stage seamless, made exact by stage quantize
+  QuantizeResult quantization{};
+  std::optional<MapQuantizer> quantizer{};  ///< of the exact map; where a stage needs it and it is empty, it is built
   IgmResult igm{};
+  bool refined = false;  ///< stage igm has refined `field`, on rank 0
   HexMesh hexes{};
   DecomposeReport decomposition{};
   Culprits culprits{};

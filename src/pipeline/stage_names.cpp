@@ -9,12 +9,12 @@
 namespace hexfield {
 
 const std::vector<std::string>& stage_names() {
-  static const std::vector<std::string> names = {"read", "field", "repair", "seamless", "igm", "extract", "improve"};
+  static const std::vector<std::string> names = {"read",     "field", "repair",  "seamless",
+                                                 "quantize", "igm",   "extract", "improve"};
   return names;
 }
 
 std::string resolve_stage(const std::string& name) {
-  if (name == "quantize") return "igm";
   const auto& names = stage_names();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     throw Error(ExitCode::usage,

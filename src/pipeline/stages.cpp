@@ -17,30 +17,24 @@
 #include "repair_values.hpp"
 
 namespace hexfield {
-namespace {
 
-std::vector<Violation> no_violations(const RunState&) { return {}; }
+double wanted_hexes(const RunState& state) {
+  double wanted = state.options.target_hexes;
+  if (state.options.edge_length > 0) {
+    const TetMesh& mesh = state.field.mesh;
+    double volume = 0;
+    for (std::size_t t = 0; t < mesh.num_tets(); ++t) volume += signed_volume6(mesh, TetId(t)) / 6;
+    wanted = std::max(1.0, volume / std::pow(state.options.edge_length, 3));
+  }
+  MPI_Bcast(&wanted, 1, MPI_DOUBLE, 0, state.team.comm());
+  return wanted;
+}
+
+namespace {
 
 std::vector<Violation> joined(std::vector<Violation> a, std::vector<Violation> b) {
   a.insert(a.end(), std::make_move_iterator(b.begin()), std::make_move_iterator(b.end()));
   return a;
-}
-
-double volume(const TetMesh& mesh) {
-  double sum = 0;
-  for (std::size_t t = 0; t < mesh.num_tets(); ++t)
-    sum += signed_volume6(mesh, TetId(static_cast<std::int64_t>(t))) / 6;
-  return sum;
-}
-
-/// The wanted number of hexes; an edge length gives it through the volume. Collective.
-double wanted_hexes(const RunState& state) {
-  double wanted = state.options.target_hexes;
-  if (state.options.edge_length > 0) {
-    wanted = std::max(1.0, volume(state.field.mesh) / std::pow(state.options.edge_length, 3));
-  }
-  MPI_Bcast(&wanted, 1, MPI_DOUBLE, 0, state.team.comm());
-  return wanted;
 }
 
 Stage read_stage() {
@@ -150,37 +144,8 @@ Stage seamless_stage() {
     state.seamless = unpack_seamless(arrays, state.field.mesh.num_tets());
   };
   stage.judge = judge_seamless;
-  stage.check = no_violations;
+  stage.check = [](const RunState&) { return std::vector<Violation>(); };
   stage.iterations = [](const RunState& state) { return state.seamless.newton_steps; };
-  return stage;
-}
-
-Stage igm_stage() {
-  Stage stage;
-  stage.name = "igm";
-  stage.compute = [](RunState& state, const std::string& basis, Progress& progress) {
-    IgmOptions options = state.options.igm;
-    options.target_hexes = wanted_hexes(state);
-    options.edge_length = state.options.edge_length;
-    state.team.together([&] {
-      const FieldResult& f = state.field;
-      state.igm = compute_integer_grid_map(state.team.comm(), f.mesh, f.features, f.codes, state.seamless.map, options,
-                                           state.safe_points.control(basis, progress));
-    });
-    state.seamless.map = {};
-  };
-  stage.pack = [](const RunState& state) { return pack(state.igm); };
-  stage.unpack = [](RunState& state, const NamedArrays& arrays) {
-    state.igm = unpack_igm(arrays, state.field.mesh.num_tets());
-    state.seamless.map = {};
-  };
-  stage.judge = judge_igm;
-  stage.check = [](const RunState& state) {
-    const FieldResult& f = state.field;
-    const bool valid = state.igm.report.valid() && state.igm.quantization_valid;
-    return valid ? check_integer_grid(f.mesh, f.features, f.codes, state.igm.map) : std::vector<Violation>();
-  };
-  stage.iterations = [](const RunState& state) { return state.igm.newton_steps; };
   return stage;
 }
 
@@ -194,7 +159,7 @@ Stage extract_stage() {
   stage.unpack = [](RunState& state, const NamedArrays& arrays) { state.hexes = unpack_hex_mesh(arrays); };
   // Extraction may give hexes that only smoothing makes positive: the verdict comes after stage 8.
   stage.judge = describe_hexes;
-  stage.check = no_violations;
+  stage.check = [](const RunState&) { return std::vector<Violation>(); };
   return stage;
 }
 
@@ -226,8 +191,15 @@ Stage improve_stage() {
 
 }  // namespace
 
+bool is_map_file(const std::filesystem::path& file) { return file.extension() == ".hexex"; }
+
+std::vector<Stage> map_stages() {
+  return {map_stage(), quantize_stage(), igm_stage(), extract_stage(), improve_stage()};
+}
+
 std::vector<Stage> all_stages() {
-  return {read_stage(), field_stage(), repair_stage(), seamless_stage(), igm_stage(), extract_stage(), improve_stage()};
+  return {read_stage(),     field_stage(), repair_stage(),  seamless_stage(),
+          quantize_stage(), igm_stage(),   extract_stage(), improve_stage()};
 }
 
 }  // namespace hexfield

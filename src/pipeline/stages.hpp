@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -28,10 +29,26 @@ struct Stage {
 
 /// All stages in their order.
 std::vector<Stage> all_stages();
+/// Those of an input that is a seamless map: map (reads it), then quantize and all after it.
+std::vector<Stage> map_stages();
+/// Whether the input is a .hexex file, which holds a seamless map.
+bool is_map_file(const std::filesystem::path& file);
+
+/// Stage 5, and stage 6 with further integers where the first cannot be reached: quantize_stages.cpp.
+Stage quantize_stage();
+Stage igm_stage();
+/// In the place of stages 1 to 4: map_stage.cpp.
+Stage map_stage();
+
+/// The wanted number of hexes; an edge length gives it through the volume. Collective.
+double wanted_hexes(const RunState& state);
 
 void judge_field(RunState& state);
 void judge_repair(RunState& state);
 void judge_seamless(RunState& state);
+/// The same where transitions and alignments may miss by `residual`, in parameter units.
+void judge_seamless_within(RunState& state, double residual);
+void judge_quantization(RunState& state);
 void judge_igm(RunState& state);
 void judge_hexes(RunState& state);
 /// The section of the report that judge_hexes() makes, without its verdict.

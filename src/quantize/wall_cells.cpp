@@ -211,6 +211,16 @@ void WallCells::find_nodes() {
   }
 }
 
+double WallCells::turning(const std::vector<std::int32_t>& chain) const {
+  const auto place = [&](std::size_t k) -> const Vec3& { return mesh_.places[static_cast<std::size_t>(chain[k])]; };
+  double sum = 0;
+  for (std::size_t k = 1; k + 1 < chain.size(); ++k) {
+    const Vec3 in = place(k) - place(k - 1), out = place(k + 1) - place(k);
+    sum += std::atan2(in.cross(out).norm(), in.dot(out));
+  }
+  return sum;
+}
+
 void WallCells::chain_arcs() {
   std::vector<std::vector<std::int32_t>> at(mesh_.places.size());
   for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -226,10 +236,12 @@ void WallCells::chain_arcs() {
       const auto arc = static_cast<std::int32_t>(complex.arcs.size());
       std::int32_t e = start;
       auto here = static_cast<std::int32_t>(v);
+      std::vector<std::int32_t> chain{here};
       for (;;) {
         arc_of_edge_[static_cast<std::size_t>(e)] = arc;
         const WallEdge& edge = edges_[static_cast<std::size_t>(e)];
         here = edge.a == here ? edge.b : edge.a;
+        chain.push_back(here);
         if (node_[static_cast<std::size_t>(here)] >= 0) break;
         const auto& star = at[static_cast<std::size_t>(here)];
         e = star[0] == e ? star[1] : star[0];
@@ -242,6 +254,7 @@ void WallCells::chain_arcs() {
       made.singular = made.code != 0;
       made.feature = (mesh_.edge_flags(edge.a, edge.b) & feature_edge) != 0;
       made.boundary = mesh_.opposite(fans_[static_cast<std::size_t>(edge.first_fan)].first) < 0;
+      made.turning = turning(chain);
       complex.arcs.push_back(made);
     }
   }

@@ -56,6 +56,7 @@ class WallCells {
   void make_edge(std::int32_t a, std::int32_t b, std::int32_t seed, bool has_boundary);
   void find_nodes();
   void chain_arcs();
+  double turning(const std::vector<std::int32_t>& chain) const;
   void join_patches();
   void place_nodes();
   void fill_patches();

@@ -108,6 +108,13 @@ std::optional<GuidedPath> lay_guided_path(RepairState& state, const FlowPlace& s
 
 namespace {
 
+// Do other than two feature edges meet at v?
+bool is_feature_end(const RepairState& state, VertexId v) {
+  const auto curve = std::ranges::count_if(edges_at(state.mesh, v),
+                                           [&](const EdgeKey& e) { return state.features.edges.contains(e); });
+  return curve != 0 && curve != 2;
+}
+
 std::optional<SurfaceSector> empty_outer_sector(RepairState& state, VertexId v) {
   const OneRing ring(state, v);
   for (const SurfaceSector& sector : surface_sectors(state, ring))
@@ -145,21 +152,50 @@ bool unzip_along_guide(RepairState& state, VertexId v, const EdgeKey& edge, cons
   return strip && zip_strip(state, *strip, {strip->start, octahedral::identity}, -code, options);
 }
 
+namespace {
+
+bool on_feature_curve(const RepairState& state, VertexId v) {
+  return std::ranges::any_of(edges_at(state.mesh, v),
+                             [&](const EdgeKey& e) { return state.features.edges.contains(e); });
+}
+
+// A zipper node on a feature curve, or another bad node where curves meet.
+bool is_held_node(const RepairState& state, VertexId v) {
+  const NodeKind kind = kind_of(state, v);
+  return on_boundary(state.mesh, v) && ((kind == NodeKind::zipper && on_feature_curve(state, v)) ||
+                                        (kind == NodeKind::invalid && is_feature_end(state, v)));
+}
+
+// Its way may lead anywhere, so all is copied: splits of ways that fail would add up from try to try.
+template <class Operation>
+bool on_a_copy(RepairState& state, const Operation& operation) {
+  RepairState trial = state;
+  if (!operation(trial)) return false;
+  state = std::move(trial);
+  return true;
+}
+
+bool repair_zipper_node(RepairState& state, VertexId v, const ZipperOptions& options) {
+  if (!is_held_node(state, v)) return false;
+  if (empty_outer_sector(state, v) &&
+      on_a_copy(state, [&](RepairState& trial) { return unzip_sector_transversally(trial, v, options); }))
+    return true;
+  if (kind_of(state, v) != NodeKind::zipper) return false;
+  return std::ranges::any_of(singular_edges_at(state, v), [&](const EdgeKey& edge) {
+    return !state.features.edges.contains(edge) &&
+           on_a_copy(state, [&](RepairState& trial) { return unzip_along_guide(trial, v, edge, options); });
+  });
+}
+
+}  // namespace
+
 int repair_constrained_zipper_nodes(RepairState& state, const ZipperOptions& options) {
   std::set<VertexId> nodes;
   for (const auto& [edge, code] : state.codes)
     for (VertexId v : edge)
-      if (kind_of(state, v) == NodeKind::zipper && on_boundary(state.mesh, v) && !is_free_zipper(state, v))
-        nodes.insert(v);
-  int repaired = 0;
-  for (VertexId v : nodes) {
-    if (kind_of(state, v) != NodeKind::zipper) continue;
-    bool done = unzip_sector_transversally(state, v, options);
-    for (const EdgeKey& edge : singular_edges_at(state, v))
-      if (!done && !state.features.edges.contains(edge)) done = unzip_along_guide(state, v, edge, options);
-    repaired += done ? 1 : 0;
-  }
-  return repaired;
+      if (is_held_node(state, v)) nodes.insert(v);
+  return static_cast<int>(
+      std::ranges::count_if(nodes, [&](VertexId v) { return repair_zipper_node(state, v, options); }));
 }
 
 }  // namespace hexfield

@@ -46,6 +46,10 @@ struct Link {
 /// First guesses from the frames: what they see of the directions of the link vertices, without the coordinates that
 /// are not free. Images with one free coordinate that have a guess already keep it.
 void guess_images(Link& link);
+/// Takes as start of every link vertex that is on no special edge the mean of its neighbours, across the charts: a
+/// guess that knows nothing but the codes, for frames that turn faster than the one-ring is fine. False when no special
+/// edge holds the images; then nothing has changed.
+bool place_harmonically(Link& link);
 /// Turns the frames with Algorithm 1 on this link alone: towards each other by the matchings, aligned to feature
 /// faces and to vertices with one free coordinate as their images are guessed.
 void align_frames(Link& link, int sweeps);

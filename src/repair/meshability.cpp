@@ -116,4 +116,17 @@ Meshability check_meshability(const FieldView& view, std::span<const EdgeKey> ed
   return result;
 }
 
+std::vector<Defect> unrefuted_defects(const FieldView& view, const VertexMapOptions& options) {
+  std::vector<Defect> defects = find_defects(view.mesh, view.features, view.field, view.codes);
+  std::map<VertexId, int> feature_edges;
+  for (const auto& entry : view.features.edges)
+    for (VertexId v : entry.first) ++feature_edges[v];
+  std::erase_if(defects, [&](const Defect& d) {
+    if (d.vertices.size() != 1) return false;
+    const auto found = feature_edges.find(d.vertices[0]);
+    return found != feature_edges.end() && found->second > 2 && vertex_meshable(view, d.vertices[0], options);
+  });
+  return defects;
+}
+
 }  // namespace hexfield

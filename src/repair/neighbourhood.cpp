@@ -155,6 +155,12 @@ VertexId Neighbourhood::to_local(VertexId parent) const {
   return VertexId(it - vertex_parent_.begin());
 }
 
+TetId Neighbourhood::to_local(TetId parent) const {
+  const auto it = std::lower_bound(tet_parent_.begin(), tet_parent_.end(), parent);
+  if (it == tet_parent_.end() || *it != parent) return TetId();
+  return TetId(it - tet_parent_.begin());
+}
+
 VertexId Neighbourhood::to_parent(VertexId v) const {
   return v.index() < vertex_parent_.size() ? vertex_parent_[v.index()] : VertexId();
 }
@@ -214,7 +220,7 @@ void write_tet(const RepairState& local, RepairState& state, const Placement& pl
 
 }  // namespace
 
-void Neighbourhood::commit(RepairState& state) const {
+std::vector<VertexId> Neighbourhood::commit(RepairState& state) const {
   Placement place{vertex_parent_, tet_parent_};
   append_vertices(local, state, place);
   append_tets(local, state, place);
@@ -236,6 +242,7 @@ void Neighbourhood::commit(RepairState& state) const {
   for (const EdgeKey& key : kept_before_)
     if (!local.kept.contains(key)) state.kept.erase(edge_key(to_parent_id(key[0]), to_parent_id(key[1])));
   for (const EdgeKey& key : local.kept) state.kept.insert(edge_key(to_parent_id(key[0]), to_parent_id(key[1])));
+  return place.vertices;
 }
 
 }  // namespace hexfield

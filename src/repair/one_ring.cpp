@@ -66,6 +66,10 @@ OneRing::OneRing(RepairState& state, VertexId centre) : centre_(centre), tets_(v
   }
   for (const EdgeKey& e : edges_at(state.mesh, centre))
     if (is_special(state, e)) spokes_.push_back(make_spoke(state, e, centre));
+  labels_at_.resize(tets_.size());
+  for (std::size_t i = 0; i < spokes_.size(); ++i)
+    for (std::size_t k = 0; k < spokes_[i].labels.size(); ++k)
+      labels_at_[static_cast<std::size_t>(index(spokes_[i].tets[k]))].emplace_back(i, spokes_[i].labels[k]);
 }
 
 const Spoke* OneRing::spoke(VertexId end) const {

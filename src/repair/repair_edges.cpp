@@ -67,20 +67,6 @@ int remove_triangles(RepairState& state) {
   return removed;
 }
 
-int push_arcs(RepairState& state) {
-  std::set<VertexId> vertices;
-  for (const auto& entry : state.codes)
-    if (!state.features.edges.contains(entry.first) && !state.kept.contains(entry.first) &&
-        !ring_of(state.mesh, entry.first[0], entry.first[1]).closed)
-      vertices.insert(entry.first.begin(), entry.first.end());
-  std::vector<Place> places;
-  for (VertexId v : vertices) places.push_back({{v}, 1});
-  const auto commits = for_places(state, places, [](Neighbourhood& copy, std::span<const VertexId> seeds) {
-    return push_inside(copy.local, seeds[0]);
-  });
-  return static_cast<int>(std::count(commits.begin(), commits.end(), 1));
-}
-
 // Codes of boundary edges are sums of sectors, which frames alone can change.
 void refresh_boundary_codes(RepairState& state) {
   std::vector<EdgeKey> edges =
@@ -96,7 +82,7 @@ EdgeRepairCounts repair_edges(RepairState& state, const EdgeRepairOptions& optio
   for (int round = 0; round < options.rounds; ++round) {
     const int before = counts.total();
     if (options.triangles) counts.triangles += remove_triangles(state);
-    if (options.push) counts.pushed += push_arcs(state);
+    if (options.push) counts.pushed += push_arcs_inside(state);
     if (options.compound) {
       const auto compound = [](const EdgeKey&, EdgeCode code) { return code == compound_code; };
       counts.compound += at_edges(state, edges_where(state, compound), repair_compound_edge);

@@ -10,9 +10,11 @@
 namespace hexfield {
 namespace {
 
-bool may_start(const Spoke& s, bool from_surface) {
+// Feature edges lose their arc only where several curves meet: on a curve it would come back at the next vertex.
+bool may_start(const OneRing& ring, const Spoke& s, const RingScope& scope) {
   if (std::abs(s.code) != 1 || s.labels.empty()) return false;
-  return s.free_arc() || (from_surface && !s.feature);
+  if (s.feature) return scope.from_features && std::ranges::count_if(ring.spokes(), &Spoke::feature) > 2;
+  return s.free_arc() || scope.from_surface;
 }
 
 // How well the field follows a spoke: mean cosine of its label.
@@ -25,10 +27,10 @@ double alignment(const TetMesh& mesh, const OneRing& ring, const Spoke& s) {
 
 // Starts of DT1: pairs of equal codes in one region, the straightest first, each with its better aligned edge; then
 // the odd ones.
-std::vector<VertexId> starts_by_pairs(const RepairState& state, const OneRing& ring, bool from_surface) {
+std::vector<VertexId> starts_by_pairs(const RepairState& state, const OneRing& ring, const RingScope& scope) {
   std::vector<const Spoke*> left;
   for (const Spoke& s : ring.spokes())
-    if (may_start(s, from_surface)) left.push_back(&s);
+    if (may_start(ring, s, scope)) left.push_back(&s);
   auto direction = [&](const Spoke& s) {
     return Vec3((state.mesh.point(s.end) - state.mesh.point(ring.centre())).normalized());
   };
@@ -54,10 +56,10 @@ std::vector<VertexId> starts_by_pairs(const RepairState& state, const OneRing& r
   return order;
 }
 
-std::vector<VertexId> starts_by_index(const OneRing& ring, bool from_surface) {
+std::vector<VertexId> starts_by_index(const OneRing& ring, const RingScope& scope) {
   std::vector<VertexId> order;
   for (const Spoke& s : ring.spokes())
-    if (may_start(s, from_surface)) order.push_back(s.end);
+    if (may_start(ring, s, scope)) order.push_back(s.end);
   return order;
 }
 
@@ -98,17 +100,18 @@ void set_chain_codes(RepairState& state, const std::vector<VertexId>& chain, Edg
 }
 
 // Unzips the start of one path; undone when something got worse (the revert rules of spec-lmff section 5.3).
-bool zip_along(RepairState& state, VertexId v, const RingPath& path, const RingQuery& query) {
+// `known`: the parabolic sectors at v before.
+bool zip_along(RepairState& state, VertexId v, const RingPath& path, const RingQuery& query, const RingScope& scope,
+               const std::vector<ParabolicSector>& known) {
   const auto fan = ring_patch(state, v, path, query.flow);
   if (!fan) return false;
-  const auto novel = [before = parabolic_sectors(state, OneRing(state, v))](const ParabolicSector& p) {
-    return !std::binary_search(before.begin(), before.end(), p);
-  };
+  const auto novel = [&](const ParabolicSector& p) { return !std::binary_search(known.begin(), known.end(), p); };
   const FieldSnapshot snapshot(state, tets_touching(state.mesh, fan->patch.faces));
   const EdgeCode code = code_of(state, fan->patch.start);
   if (!zip_patch(state, fan->patch, octahedral::identity)) return false;
   set_chain_codes(state, fan->chain, code, query.flow);
-  bool good = code_of(state, fan->patch.start) == 0 || state.features.edges.contains(fan->patch.start);
+  const bool from_feature = state.features.edges.contains(fan->patch.start);
+  bool good = from_feature ? surface_edge_is_sound(state, v, path.from) : code_of(state, fan->patch.start) == 0;
   if (path.to.valid()) {
     const EdgeKey e = edge_key(v, path.to);
     const EdgeRing ring = ring_of(state.mesh, e[0], e[1]);
@@ -122,6 +125,7 @@ bool zip_along(RepairState& state, VertexId v, const RingPath& path, const RingQ
     const auto after = parabolic_sectors(state, OneRing(state, v));
     good = std::none_of(after.begin(), after.end(), novel);
   }
+  good = good && (!scope.accept || scope.accept(state));
   if (!good) snapshot.restore(state);
   return good;
 }
@@ -135,16 +139,17 @@ bool try_starts(RepairState& state, VertexId v, Flow flow, bool any_code, const 
   query.cross_surfaces = scope.cross_surfaces;
   const OneRing ring(state, v);
   const bool pairs = query.flow == Flow::through && query.target != RingTarget::surface && !query.any_code;
-  const auto starts =
-      pairs ? starts_by_pairs(state, ring, scope.from_surface) : starts_by_index(ring, scope.from_surface);
+  const auto starts = pairs ? starts_by_pairs(state, ring, scope) : starts_by_index(ring, scope);
+  const auto known = parabolic_sectors(state, ring);
   for (VertexId start : starts) {
     query.start = start;
-    std::size_t tried = 0;
-    // A failed try may have split the ring: search again and go on behind the targets that were tried.
-    for (;; ++tried) {
-      const auto paths = find_ring_paths(state, OneRing(state, v), query);
-      if (tried >= std::min<std::size_t>(paths.size(), 4)) break;
-      if (zip_along(state, v, paths[tried], query)) return true;
+    auto paths = find_ring_paths(state, ring, query);
+    if (paths.size() > 4) paths.resize(4);
+    for (const RingPath& path : paths) {
+      RepairState trial = state;  // a failure would leave splits behind, in which the next try would split more
+      if (!zip_along(trial, v, path, query, scope, known)) continue;
+      state = std::move(trial);
+      return true;
     }
   }
   return false;
@@ -168,8 +173,8 @@ bool reverse_sector(RepairState& state, VertexId v, const RingScope& scope) {
   return try_starts(state, v, Flow::parallel, true, scope);
 }
 
-bool detach_to_boundary(RepairState& state, VertexId v, Flow flow) {
-  return try_starts(state, v, flow, false, {RingTarget::surface});
+bool detach_to_boundary(RepairState& state, VertexId v, Flow flow, const RingScope& scope) {
+  return try_starts(state, v, flow, false, scope);
 }
 
 }  // namespace hexfield

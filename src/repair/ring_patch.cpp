@@ -124,7 +124,7 @@ std::vector<VertexId> split_chain(RepairState& state, VertexId v, const RingPath
 std::optional<RingPatch> ring_patch(RepairState& state, VertexId v, const RingPath& path, Flow flow) {
   RingPatch found;
   if (!path.exit.valid()) found.chain = Strip(state, v, path).shortest_chain(flow);
-  if (found.chain.empty() && flow == Flow::parallel && path.faces.empty()) {
+  if (found.chain.empty() && path.to.valid() && flow == Flow::parallel && path.faces.empty()) {
     // Both spokes belong to one tet: its link edge gets the inner vertex.
     const EdgeKey e = edge_key(path.from, path.to);
     if (!is_special(state, e) && !lies_in_feature_face(state, e))

@@ -37,7 +37,12 @@ bool steps_are_free(const OneRing& ring, const Spoke& start, RingTarget target) 
 class Search {
  public:
   Search(const RepairState& state, const OneRing& ring, const RingQuery& query, bool free_steps)
-      : state_(state), ring_(ring), query_(query), start_(*ring.spoke(query.start)), free_(free_steps) {}
+      : state_(state),
+        ring_(ring),
+        query_(query),
+        start_(*ring.spoke(query.start)),
+        free_(free_steps),
+        seen_(6 * ring.tets().size(), 0) {}
 
   std::vector<RingPath> run() {
     if (start_.labels.empty()) return {};
@@ -47,8 +52,8 @@ class Search {
     }
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       find_targets(static_cast<int>(i));
+      const Step step = steps_[i];
       for (int f = 0; f < 4; ++f) {
-        const Step step = steps_[i];
         const HalfFaceId h(step.tet, f);
         if (state_.mesh.vertices(step.tet)[static_cast<std::size_t>(f)] == ring_.centre()) continue;
         if (state_.mesh.is_boundary(h) || !admissible(h, step.label)) continue;
@@ -61,7 +66,9 @@ class Search {
 
  private:
   void visit(const Step& step) {
-    if (seen_.insert({ring_.index(step.tet), step.label}).second) steps_.push_back(step);
+    char& seen = seen_[static_cast<std::size_t>(6 * ring_.index(step.tet) + step.label)];
+    if (seen == 0) steps_.push_back(step);
+    seen = 1;
   }
 
   double along(HalfFaceId h, Label label) const {
@@ -94,8 +101,9 @@ class Search {
       for (int f = 0; f < 4; ++f) find_exit(i, HalfFaceId(step.tet, f));
       return;
     }
-    for (const Spoke& s : ring_.spokes()) {
-      if (reached_.contains(s.end) || s.label_in(step.tet) != step.label || !wanted(s)) continue;
+    for (const auto& [place, label] : ring_.labels_at(ring_.index(step.tet))) {
+      const Spoke& s = ring_.spokes()[place];
+      if (label != step.label || reached_.contains(s.end) || !wanted(s)) continue;
       if (add(i, s.end, HalfFaceId())) reached_.insert(s.end);
     }
   }
@@ -132,7 +140,7 @@ class Search {
   const RingQuery& query_;
   const Spoke& start_;
   bool free_;
-  std::set<std::pair<int, Label>> seen_;
+  std::vector<char> seen_;  // per tet and label
   std::vector<Step> steps_;
   std::set<VertexId> reached_;
   std::set<HalfFaceId> exits_;

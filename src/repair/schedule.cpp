@@ -15,6 +15,7 @@
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/repair/constrained_zippers.hpp"
 #include "hexfield/repair/edge_repair.hpp"
+#include "hexfield/repair/free_ends.hpp"
 #include "hexfield/repair/meshability.hpp"
 #include "hexfield/repair/neighbourhood_loop.hpp"
 #include "hexfield/repair/relocation.hpp"
@@ -151,7 +152,7 @@ void Schedule::relocate() {
 bool Schedule::meshable() {
   std::size_t defects = 0;
   timed("check", [&] {
-    defects = find_defects(state_.mesh, state_.features, state_.field, state_.codes).size();
+    defects = unrefuted_defects(state_).size();
     if (defects > 0) return 0;
     const std::vector<EdgeKey> edges = special_edges(state_);
     const Meshability found = check_meshability(state_, edges, vertices_of(edges));
@@ -172,7 +173,19 @@ void Schedule::note_progress(int defects) {
   iterate_.zipper_shrink *= 2;
 }
 
+void Schedule::free_ends() {
+  timed("free arc ends from curves", [&] {
+    std::vector<Place> places;
+    for (VertexId v : ends_on_curves(state_)) places.push_back({{v}, 1});
+    const auto commits = for_places(state_, places, [](Neighbourhood& copy, std::span<const VertexId> seeds) {
+      return free_arc_end(copy.local, seeds[0]);
+    });
+    return std::count(commits.begin(), commits.end(), 1);
+  });
+}
+
 void Schedule::finish() {
+  free_ends();
   timed("separate arcs and features", [&] {
     unify_codes(state_.mesh, state_.field, state_.codes);
     isolate();

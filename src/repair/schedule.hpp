@@ -33,6 +33,7 @@ class Schedule {
   void timed(const std::string& kind, const Work& work);
   void isolate();
   void note_progress(int defects);
+  void free_ends();
   void align_everywhere();
 
   RepairIterate& iterate_;

@@ -43,7 +43,7 @@ struct Cut {
   Label normal = octahedral::no_label;
 };
 
-Cut cut_of(const RepairState& state, VertexId v, VertexId end, const Sector& s) {
+Cut plain_cut(const RepairState& state, VertexId v, VertexId end, const Sector& s) {
   Cut best;
   Label normal = closest_label(state.field.frames[s.tets[0].index()], outward_normal(state.mesh, s.first));
   std::size_t distance = s.crossings.size() + 1;
@@ -60,11 +60,40 @@ Cut cut_of(const RepairState& state, VertexId v, VertexId end, const Sector& s) 
   return best;
 }
 
+VertexId apex_of(const RepairState& state, VertexId v, VertexId end, const Cut& cut) {
+  for (VertexId w : state.mesh.face_vertices(cut.face))
+    if (w != v && w != end) return w;
+  return VertexId();
+}
+
+// The new arc leaves v with one quad more and the surface with one less; its two edges run across the flow, so that
+// geometry cannot tell.
+void set_codes(RepairState& state, VertexId v, VertexId end, const std::vector<Cut>& cuts) {
+  for (const Cut& c : cuts) {
+    const VertexId apex = apex_of(state, v, end, c);
+    state.codes[edge_key(v, apex)] = 1;
+    state.codes[edge_key(apex, end)] = -1;
+  }
+}
+
+// Splits the widest tet of every sector that has no plain face at the spoke.
+std::vector<Cut> cuts_of(RepairState& state, VertexId v, VertexId end) {
+  auto all = [&] { return sectors(state.mesh, state.features, state.field, ring_of(state.mesh, v, end), v, end); };
+  for (const Sector& s : all()) {
+    if (plain_cut(state, v, end, s).face.valid()) continue;
+    TetId widest = s.tets.front();
+    for (TetId t : s.tets)
+      if (dihedral_angle(state.mesh, t, v, end) > dihedral_angle(state.mesh, widest, v, end) + 1e-12) widest = t;
+    split_tet(state, widest);
+  }
+  std::vector<Cut> cuts;
+  for (const Sector& s : all()) cuts.push_back(plain_cut(state, v, end, s));
+  return cuts;
+}
+
 // Quarter-turn about the normal across one face.
 bool turn_across(RepairState& state, VertexId v, VertexId end, const Cut& cut, bool reverse) {
-  VertexId apex;
-  for (VertexId w : state.mesh.face_vertices(cut.face))
-    if (w != v && w != end) apex = w;
+  const VertexId apex = apex_of(state, v, end, cut);
   ZipPatch patch;
   patch.faces = {state.mesh.key(cut.face)};
   patch.start = edge_key(v, apex);
@@ -90,16 +119,12 @@ int blocked_sectors(RepairState& state, VertexId v) {
   return n;
 }
 
-bool open_sector(RepairState& state, VertexId v, const SurfaceSector& sector) {
+bool open_sector(RepairState& state, VertexId v, const SurfaceSector& sector, const RingScope& scope) {
   const VertexId end = middle_spoke(state, v, sector);
   isolate_star(state, v);
   const int before = blocked_sectors(state, v);
-  const EdgeRing ring = ring_of(state.mesh, v, end);
-  std::vector<Cut> cuts;
-  for (const Sector& s : sectors(state.mesh, state.features, state.field, ring, v, end)) {
-    cuts.push_back(cut_of(state, v, end, s));
-    if (!cuts.back().face.valid()) return false;
-  }
+  const std::vector<Cut> cuts = cuts_of(state, v, end);
+  if (std::ranges::any_of(cuts, [](const Cut& c) { return !c.face.valid(); })) return false;
   std::vector<FaceKey> faces;
   for (const Cut& c : cuts) faces.push_back(state.mesh.key(c.face));
   const FieldSnapshot snapshot(state, tets_touching(state.mesh, faces));
@@ -108,7 +133,9 @@ bool open_sector(RepairState& state, VertexId v, const SurfaceSector& sector) {
     for (std::size_t i = 0; good && i < cuts.size(); ++i)
       good = turn_across(state, v, end, cuts[i], ((signs >> i) & 1U) != 0);
     good = good && code_of(state, edge_key(v, end)) == 0 && empty_sectors(state, edge_key(v, end)) == 0;
-    if (good && blocked_sectors(state, v) < before) return true;
+    good = good && blocked_sectors(state, v) < before;
+    if (good) set_codes(state, v, end, cuts);
+    if (good && (!scope.accept || scope.accept(state))) return true;
     snapshot.restore(state);
   }
   return false;
@@ -116,7 +143,7 @@ bool open_sector(RepairState& state, VertexId v, const SurfaceSector& sector) {
 
 }  // namespace
 
-bool unzip_transversally(RepairState& state, VertexId v) {
+bool unzip_transversally(RepairState& state, VertexId v, const RingScope& scope) {
   isolate_star(state, v);
   for (std::size_t i = 0;; ++i) {
     const OneRing ring(state, v);
@@ -124,7 +151,7 @@ bool unzip_transversally(RepairState& state, VertexId v) {
     for (SurfaceSector& s : surface_sectors(state, ring))
       if (is_blocked(ring, s)) blocked.push_back(std::move(s));
     if (i >= blocked.size()) return false;
-    if (open_sector(state, v, blocked[i])) return true;
+    if (open_sector(state, v, blocked[i], scope)) return true;
   }
 }
 

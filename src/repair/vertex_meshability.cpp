@@ -207,12 +207,19 @@ VertexVerdict vertex_verdict(const FieldView& view, VertexId v, const VertexMapO
     if (map != nullptr) *map = mapped(plain, starts(plain));
     return VertexVerdict::meshable;
   }
+  Link harmonic = plain;
+  const bool placed = place_harmonically(harmonic);
+  if (placed && is_drawing(harmonic, starts(harmonic), options.smallest_det)) {
+    if (map != nullptr) *map = mapped(harmonic, starts(harmonic));
+    return VertexVerdict::meshable;
+  }
   std::vector<Link> guesses = {plain, plain};
   align_frames(guesses[0], options.sweeps);
   guess_images(guesses[0]);
   guesses.push_back(guesses[0]);
   align_frames(guesses[2], 4 * options.sweeps);
   guess_images(guesses[2]);
+  if (placed) guesses.push_back(harmonic);
   for (int level = 0; level <= options.refinements; ++level) {
     if (level > 0 && !is_cramped(guesses[0])) break;
     if (level > 0) guesses = {refined(guesses[0])};  // the larger problem gets one guess only

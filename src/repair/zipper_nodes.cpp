@@ -5,6 +5,7 @@
 
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/field/edge_codes.hpp"
+#include "hexfield/repair/neighbourhood.hpp"
 #include "hexfield/repair/state_ops.hpp"
 #include "hexfield/repair/zipping.hpp"
 
@@ -142,6 +143,40 @@ std::vector<FreeZipper> left_of(const RepairState& state, std::span<const FreeZi
   return left;
 }
 
+// The path as the copy has it; it need not know the tets.
+UnzipPath path_in(const Neighbourhood& copy, const UnzipPath& path) {
+  auto edge = [&](const EdgeKey& e) { return edge_key(copy.to_local(e[0]), copy.to_local(e[1])); };
+  UnzipPath local = path;
+  local.tets.clear();
+  local.seed.tet = copy.to_local(path.seed.tet);
+  local.seed.origin = copy.to_local(path.seed.origin);
+  local.seed.edge = edge(path.seed.edge);
+  for (FaceKey& f : local.faces) f = face_key(copy.to_local(f[0]), copy.to_local(f[1]), copy.to_local(f[2]));
+  if (local.partner) {
+    local.partner->node = copy.to_local(path.partner->node);
+    local.partner->edge = edge(path.partner->edge);
+  }
+  return local;
+}
+
+// unzip() on a copy of the tets along the path: one that fails leaves no splits behind. `blocked` gets the strip.
+bool unzip_on_copy(RepairState& state, const UnzipPath& path, const ZipperOptions& options,
+                   std::set<FaceKey>& blocked) {
+  std::vector<VertexId> places = vertices_of(state.mesh, path.tets);
+  places.push_back(path.seed.origin);
+  if (path.partner) places.push_back(path.partner->node);
+  Neighbourhood copy(state, tets_around(state.mesh, places, 0));
+  const int local_pair = new_pair(copy.local), pair = new_pair(state);
+  Strip strip;
+  if (!unzip(copy.local, path_in(copy, path), options, &strip)) return false;
+  for (auto& entry : copy.local.pairs)
+    if (entry.second == local_pair) entry.second = pair;
+  const auto ids = copy.commit(state);
+  for (const FaceKey& f : strip.faces)
+    blocked.insert(face_key(ids[f[0].index()], ids[f[1].index()], ids[f[2].index()]));
+  return true;
+}
+
 }  // namespace
 
 int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
@@ -157,15 +192,12 @@ int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
   int unzipped = 0;
   for (std::size_t i = 0; i < zippers.size() && unzipped < options.cap; ++i) {
     if (consumed.contains(zippers[i].node) || !is_free_zipper(state, zippers[i].node)) continue;
-    if (!paths[i]) continue;
-    if (!untouched(state, *paths[i], consumed))
+    if (paths[i] && !untouched(state, *paths[i], consumed))
       paths[i] =
           find_unzip_path(state, unzip_seeds(state, free_zipper_at(state, zippers[i].node)),
                           unzip_partners(state, left_of(state, zippers, consumed)), blocked, consumed, options.search);
-    if (!paths[i]) continue;  // the next pass sees another field
-    Strip strip;
-    if (!unzip(state, *paths[i], options, &strip)) continue;
-    blocked.insert(strip.faces.begin(), strip.faces.end());
+    // Where there is no way, the next pass sees another field.
+    if (!paths[i] || !unzip_on_copy(state, *paths[i], options, blocked)) continue;
     consumed.insert(zippers[i].node);
     if (paths[i]->partner) consumed.insert(paths[i]->partner->node);
     unzipped += paths[i]->partner ? 2 : 1;

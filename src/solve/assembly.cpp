@@ -8,8 +8,10 @@
 
 #include "hexfield/base/agree.hpp"
 #include "hexfield/base/error.hpp"
+#include "hexfield/base/exact_sum.hpp"
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/base/petsc.hpp"
+#include "order_free.hpp"
 
 namespace hexfield::solve {
 namespace {
@@ -35,7 +37,7 @@ Assembly::Assembly(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec 
   check_petsc(VecGetSize(y, &size), "VecGetSize");
   check_petsc(VecGetLocalSize(y, &num_local_), "VecGetLocalSize");
   agree(comm_, [&] {
-    for (const EnergyTerm* energy : terms) terms_.push_back({energy, {}, {0}, {}});
+    for (const EnergyTerm* energy : terms) terms_.push_back({energy, {}, {0}, {}, 0, 0});
     collect_unknowns();
     if (!needed_.empty() && (needed_.front() < 0 || needed_.back() >= size))
       throw Error(ExitCode::bug, fmt::format("An energy term names unknown {} of {}.",
@@ -46,6 +48,7 @@ Assembly::Assembly(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec 
   check_petsc(ISCreateGeneral(comm_, n, needed_.data(), PETSC_COPY_VALUES, set.out()), "ISCreateGeneral");
   check_petsc(VecCreateSeq(PETSC_COMM_SELF, n, gathered_.out()), "VecCreateSeq");
   check_petsc(VecScatterCreate(y, set.get(), gathered_.get(), nullptr, scatter_.out()), "VecScatterCreate");
+  check_petsc(VecDuplicate(y, work_.out()), "VecDuplicate");
 }
 
 void Assembly::collect_unknowns() {
@@ -61,7 +64,11 @@ void Assembly::collect_unknowns() {
   std::sort(needed_.begin(), needed_.end());
   needed_.erase(std::unique(needed_.begin(), needed_.end()), needed_.end());
   std::size_t entries = 0;
-  for (Term& term : terms_)
+  std::size_t elements = 0;
+  std::size_t gradients = 0;
+  for (Term& term : terms_) {
+    term.first_energy = elements;
+    term.first_gradient = gradients;
     for (std::size_t e = 0; e < term.energy->num_elements(); ++e) {
       const auto unknowns = term.energy->unknowns(e);
       for (PetscInt u : unknowns)
@@ -71,6 +78,10 @@ void Assembly::collect_unknowns() {
       term.first_entry.push_back(entries);
       entries += unknowns.size() * unknowns.size();
     }
+    elements += term.energy->num_elements();
+    gradients += term.local.size();
+  }
+  energies_.assign(elements, 0.0);
 }
 
 void Assembly::create_hessian(Vec y) {
@@ -80,13 +91,19 @@ void Assembly::create_hessian(Vec y) {
     for (std::size_t e = 0; e + 1 < term.first.size(); ++e) {
       const std::size_t n = term.first[e + 1] - term.first[e];
       entries += n * n;
-      gradients = std::max(gradients, term.local.size());
+      gradients += n;
     }
   std::vector<PetscInt> rows;
   std::vector<PetscInt> columns;
   agree(comm_, [&] {
     entries_.assign(entries, 0.0);
     gradients_.assign(gradients, 0.0);
+    row_sizes_.assign(gradients, 0.0);
+    row_grids_.assign(needed_.size(), 0.0);
+    gradient_grids_.assign(needed_.size(), 0.0);
+    counts_.assign(needed_.size(), 0.0);
+    for (const Term& term : terms_)
+      for (std::int32_t u : term.local) counts_[static_cast<std::size_t>(u)] += 1;
     rows.reserve(entries + static_cast<std::size_t>(num_local_));
     columns.reserve(rows.capacity());
     for (const Term& term : terms_)
@@ -105,6 +122,7 @@ void Assembly::create_hessian(Vec y) {
       entries_.push_back(0.0);
     }
   });
+  scatter(counts_, ADD_VALUES);
   check_petsc(MatCreate(comm_, hessian_.out()), "MatCreate");
   check_petsc(MatSetSizes(hessian_.get(), num_local_, num_local_, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
   check_petsc(MatSetType(hessian_.get(), MATAIJ), "MatSetType");
@@ -130,56 +148,111 @@ void Assembly::gather(Vec y, std::vector<double>& values) {
   check_petsc(VecRestoreArrayRead(gathered_.get(), &data), "VecRestoreArrayRead");
 }
 
-double Assembly::sum(double local) const {
-  MPI_Allreduce(MPI_IN_PLACE, &local, 1, MPI_DOUBLE, MPI_SUM, comm_);
-  return local;
+// Replaces the values at the needed unknowns by their sum or maximum over all ranks.
+void Assembly::scatter(std::vector<double>& values, InsertMode mode) {
+  double* data = nullptr;
+  check_petsc(VecGetArray(gathered_.get(), &data), "VecGetArray");
+  std::copy(values.begin(), values.end(), data);
+  check_petsc(VecRestoreArray(gathered_.get(), &data), "VecRestoreArray");
+  check_petsc(VecSet(work_.get(), 0.0), "VecSet");
+  check_petsc(VecScatterBegin(scatter_.get(), gathered_.get(), work_.get(), mode, SCATTER_REVERSE), "VecScatterBegin");
+  check_petsc(VecScatterEnd(scatter_.get(), gathered_.get(), work_.get(), mode, SCATTER_REVERSE), "VecScatterEnd");
+  gather(work_.get(), values);
 }
 
-double Assembly::energy_of(const Term& term, const std::vector<double>& values) const {
-  return parallel_sum(term.energy->num_elements(), grain, [&](std::size_t begin, std::size_t end) {
-    double part = 0;
-    for_elements(term, values, begin, end,
-                 [&](std::size_t e, std::span<const double> y) { part += term.energy->value(e, y); });
-    return part;
-  });
+double Assembly::total_energy() const {
+  const double energy = exact_sum(comm_, energies_);
+  return std::isnan(energy) ? std::numeric_limits<double>::infinity() : energy;
 }
 
 double Assembly::value(Vec y) {
   gather(y, values_);
-  double energy = 0;
   agree(comm_, [&] {
-    for (const Term& term : terms_) energy += energy_of(term, values_);
+    for (const Term& term : terms_)
+      parallel_for(term.energy->num_elements(), grain, [&](std::size_t begin, std::size_t end) {
+        for_elements(term, values_, begin, end, [&](std::size_t e, std::span<const double> y_e) {
+          energies_[term.first_energy + e] = term.energy->value(e, y_e);
+        });
+      });
   });
-  return sum(energy);
+  return total_energy();
 }
 
-double Assembly::derivatives_of(const Term& term, std::span<double> gradient) {
-  const double energy = parallel_sum(term.energy->num_elements(), grain, [&](std::size_t begin, std::size_t end) {
-    double part = 0;
+void Assembly::derivatives_of(const Term& term) {
+  parallel_for(term.energy->num_elements(), grain, [&](std::size_t begin, std::size_t end) {
     for_elements(term, values_, begin, end, [&](std::size_t e, std::span<const double> y) {
-      const std::span<double> g(gradients_.data() + term.first[e], y.size());
-      const std::span<double> h(entries_.data() + term.first_entry[e], y.size() * y.size());
-      part += term.energy->derivatives(e, y, g, h);
+      const std::size_t n = y.size();
+      const std::size_t start = term.first_gradient + term.first[e];
+      double* h = entries_.data() + term.first_entry[e];
+      energies_[term.first_energy + e] = term.energy->derivatives(e, y, {gradients_.data() + start, n}, {h, n * n});
+      for (std::size_t i = 0; i < n; ++i) {
+        double largest = 0;
+        for (std::size_t k = 0; k < n; ++k) {
+          const double size = std::abs(h[i * n + k]);
+          largest = std::isfinite(size) ? std::max(largest, size) : std::numeric_limits<double>::infinity();
+        }
+        row_sizes_[start + i] = largest;
+      }
     });
-    return part;
   });
-  for (std::size_t k = 0; k < term.local.size(); ++k)
-    gradient[static_cast<std::size_t>(term.local[k])] += gradients_[k];
-  return energy;
+}
+
+// The grids on which sums of element gradients and Hessians are exact.
+void Assembly::find_grids() {
+  std::fill(row_grids_.begin(), row_grids_.end(), 0.0);
+  std::fill(gradient_grids_.begin(), gradient_grids_.end(), 0.0);
+  for (const Term& term : terms_)
+    for (std::size_t k = 0; k < term.local.size(); ++k) {
+      const auto u = static_cast<std::size_t>(term.local[k]);
+      const double g = std::abs(gradients_[term.first_gradient + k]);
+      gradient_grids_[u] = std::isfinite(g) ? std::max(gradient_grids_[u], g) : std::numeric_limits<double>::infinity();
+      row_grids_[u] = std::max(row_grids_[u], row_sizes_[term.first_gradient + k]);
+    }
+  largest_of_all_ranks(gradient_grids_);
+  largest_of_all_ranks(row_grids_);
+  agree(comm_, [&] {
+    for (double g : gradient_grids_) require(std::isfinite(g), "A gradient of an energy is not finite.");
+    for (double h : row_grids_) require(std::isfinite(h), "A Hessian of an energy is not finite.");
+    for (std::size_t u = 0; u < needed_.size(); ++u) {
+      gradient_grids_[u] = order_free_grid(gradient_grids_[u], counts_[u]);
+      row_grids_[u] = order_free_grid(row_grids_[u], counts_[u]);
+    }
+  });
+}
+
+// The Hessian is symmetric: no entry is larger than the largest of its row or of its column.
+void Assembly::round_entries(const Term& term) {
+  parallel_for(term.energy->num_elements(), grain, [&](std::size_t begin, std::size_t end) {
+    for_elements(term, row_grids_, begin, end, [&](std::size_t e, std::span<const double> grids) {
+      const std::size_t n = grids.size();
+      double* h = entries_.data() + term.first_entry[e];
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < n; ++k) h[i * n + k] = order_free(h[i * n + k], std::min(grids[i], grids[k]));
+    });
+  });
+}
+
+void Assembly::add_gradients(std::span<double> gradient) const {
+  for (const Term& term : terms_)
+    for (std::size_t k = 0; k < term.local.size(); ++k) {
+      const auto u = static_cast<std::size_t>(term.local[k]);
+      gradient[u] += order_free(gradients_[term.first_gradient + k], gradient_grids_[u]);
+    }
 }
 
 double Assembly::derivatives(Vec y, Vec gradient) {
   if (hessian_.get() == nullptr) create_hessian(y);
   gather(y, values_);
-  double energy = 0;
+  agree(comm_, [&] {
+    for (const Term& term : terms_) derivatives_of(term);
+  });
+  find_grids();
   check_petsc(VecSet(gathered_.get(), 0.0), "VecSet");
   agree(comm_, [&] {
+    for (const Term& term : terms_) round_entries(term);
     double* data = nullptr;
     check_petsc(VecGetArray(gathered_.get(), &data), "VecGetArray");
-    const std::span<double> local(data, needed_.size());
-    for (const Term& term : terms_) energy += derivatives_of(term, local);
-    for (double g : local) require(std::isfinite(g), "A gradient of an energy is not finite.");
-    for (double h : entries_) require(std::isfinite(h), "A Hessian of an energy is not finite.");
+    add_gradients({data, needed_.size()});
     check_petsc(VecRestoreArray(gathered_.get(), &data), "VecRestoreArray");
   });
   check_petsc(VecSet(gradient, 0.0), "VecSet");
@@ -187,7 +260,7 @@ double Assembly::derivatives(Vec y, Vec gradient) {
               "VecScatterBegin");
   check_petsc(VecScatterEnd(scatter_.get(), gathered_.get(), gradient, ADD_VALUES, SCATTER_REVERSE), "VecScatterEnd");
   check_petsc(MatSetValuesCOO(hessian_.get(), entries_.data(), INSERT_VALUES), "MatSetValuesCOO");
-  return sum(energy);
+  return total_energy();
 }
 
 double Assembly::max_step(Vec y, Vec dy) {

@@ -6,6 +6,7 @@
 #include "hexfield/base/error.hpp"
 #include "hexfield/base/petsc.hpp"
 #include "hexfield/solve/sparse_inverse.hpp"
+#include "owner_cholesky.hpp"
 
 namespace hexfield::solve {
 namespace {
@@ -18,13 +19,31 @@ constexpr int max_stale_iterations = 30;
 }  // namespace
 
 LinearSolver::LinearSolver(MPI_Comm comm, Preconditioner preconditioner, int max_iterations)
-    : max_iterations_(max_iterations), keeps_factor_(preconditioner == Preconditioner::cholesky) {
+    : preconditioner_(preconditioner),
+      max_iterations_(max_iterations),
+      keeps_factor_(preconditioner == Preconditioner::cholesky) {
   check_petsc(KSPCreate(comm, &ksp_), "KSPCreate");
   check_petsc(KSPSetType(ksp_, KSPCG), "KSPSetType");
   check_petsc(KSPSetNormType(ksp_, KSP_NORM_NATURAL), "KSPSetNormType");
+}
+
+void LinearSolver::set_matrix(Mat matrix) {
+  check_petsc(KSPSetOperators(ksp_, matrix, matrix), "KSPSetOperators");
+  if (chosen_) return;
   PC pc = nullptr;
   check_petsc(KSPGetPC(ksp_, &pc), "KSPGetPC");
-  choose_preconditioner(pc, preconditioner);
+  if (preconditioner_ == Preconditioner::cholesky && one_rank_owns(matrix))
+    use_owner_cholesky(pc);
+  else
+    choose_preconditioner(pc, preconditioner_);
+  chosen_ = true;
+}
+
+void LinearSolver::factorise(Mat matrix) {
+  set_matrix(matrix);
+  check_petsc(KSPSetReusePreconditioner(ksp_, PETSC_FALSE), "KSPSetReusePreconditioner");
+  check_petsc(KSPSetUp(ksp_), "KSPSetUp");
+  has_factor_ = keeps_factor_;
 }
 
 int LinearSolver::run(Vec rhs, Vec x, double relative_tolerance, int limit, bool& converged) {
@@ -40,7 +59,8 @@ int LinearSolver::run(Vec rhs, Vec x, double relative_tolerance, int limit, bool
 }
 
 int LinearSolver::solve(Mat matrix, Vec rhs, Vec x, double relative_tolerance) {
-  check_petsc(KSPSetOperators(ksp_, matrix, matrix), "KSPSetOperators");
+  set_matrix(matrix);
+  renewed_ = false;
   int iterations = 0;
   bool converged = false;
   if (has_factor_) {
@@ -52,6 +72,7 @@ int LinearSolver::solve(Mat matrix, Vec rhs, Vec x, double relative_tolerance) {
     check_petsc(KSPSetReusePreconditioner(ksp_, PETSC_FALSE), "KSPSetReusePreconditioner");
     iterations += run(rhs, x, relative_tolerance, max_iterations_, converged);
     has_factor_ = keeps_factor_ && converged;
+    renewed_ = has_factor_;
   }
   PetscReal norm = 0;
   check_petsc(VecNorm(x, NORM_2, &norm), "VecNorm");

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <petscksp.h>
-
-#include "assembly.hpp"
+#include "hexfield/solve/minimise.hpp"
+#include "hexfield/solve/petsc_handle.hpp"
 
 namespace hexfield::solve {
 
 /// Conjugate gradients on a symmetric positive-(semi)definite AIJ matrix that keeps its pattern. A factorisation
-/// serves later matrices too, until it costs more iterations than a new one is worth.
+/// serves later matrices too, until it costs more iterations than a new one is worth. Where one rank owns all rows,
+/// it alone factorises, and the result is the same bytes for any number of ranks.
 class LinearSolver {
  public:
   LinearSolver(MPI_Comm comm, Preconditioner preconditioner, int max_iterations);
@@ -19,15 +19,25 @@ class LinearSolver {
   /// the best iterate when the limit or a direction of no curvature ends it early, and rhs itself (scaled by
   /// nothing) when not even one step was possible. Collective.
   int solve(Mat matrix, Vec rhs, Vec x, double relative_tolerance);
+  /// Factorises the matrix for later solves, as solve() does where no earlier factorisation serves. Collective.
+  void factorise(Mat matrix);
+  /// Whether a factorisation of an earlier matrix is kept.
+  bool has_factor() const { return has_factor_; }
+  /// Whether the last solve() factorised its own matrix and keeps that.
+  bool renewed() const { return renewed_; }
 
  private:
+  void set_matrix(Mat matrix);
   /// Iterations; sets `converged`.
   int run(Vec rhs, Vec x, double relative_tolerance, int limit, bool& converged);
 
   KSP ksp_ = nullptr;
+  Preconditioner preconditioner_;
   int max_iterations_;
+  bool chosen_ = false;  // the preconditioner, which depends on the layout of the matrix
   bool keeps_factor_;
   bool has_factor_ = false;
+  bool renewed_ = false;
 };
 
 }  // namespace hexfield::solve

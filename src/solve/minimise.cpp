@@ -27,7 +27,8 @@ class Newton {
       : options_(options),
         assembly_(comm, terms, y),
         solver_(comm, options.preconditioner, options.max_linear_iterations),
-        y_(y) {
+        y_(y),
+        memory_(options.memory != nullptr ? *options.memory : own_memory_) {
     for (VecHandle* v : {&gradient_, &step_, &trial_}) check_petsc(VecDuplicate(y, v->out()), "VecDuplicate");
     assembly_.set_block_size(options.block_size);
   }
@@ -38,25 +39,28 @@ class Newton {
     if (size == 0) return result_;
     result_.energy = assembly_.value(y_);
     require(std::isfinite(result_.energy), "A minimisation starts outside the domain of its energy.");
+    result_.iterations = memory_.iterations;
+    if (memory_.has_factor) factorise_again();
     for (;;) {
       result_.energy = assembly_.derivatives(y_, gradient_.get());
       check_petsc(VecNorm(gradient_.get(), NORM_2, &result_.gradient_norm), "VecNorm");
       if (result_.iterations == 0) {
-        start_norm_ = result_.gradient_norm;
-        start_energy_ = std::abs(result_.energy);
+        memory_.start_norm = result_.gradient_norm;
+        memory_.start_energy = std::abs(result_.energy);
       }
-      if (result_.gradient_norm <= options_.gradient_tolerance * std::max(1.0, start_norm_))
+      if (result_.gradient_norm <= options_.gradient_tolerance * std::max(1.0, memory_.start_norm))
         return finish(NewtonEnd::converged);
       if (result_.iterations >= options_.max_iterations) return finish(NewtonEnd::iteration_limit);
       const double slope = solve_for_step();
       if (!(slope < 0)) return finish(NewtonEnd::no_descent);
       // Below the second bound the energy, a difference of larger numbers, is only rounding noise.
-      if (-0.5 * slope <= std::max(options_.decrease_tolerance * std::abs(result_.energy), 1e-15 * start_energy_)) {
+      if (-0.5 * slope <=
+          std::max(options_.decrease_tolerance * std::abs(result_.energy), 1e-15 * memory_.start_energy)) {
         search(slope);
         return finish(NewtonEnd::converged);
       }
       if (!search(slope)) return finish(NewtonEnd::no_descent);
-      ++result_.iterations;
+      memory_.iterations = ++result_.iterations;
       if (options_.monitor && !options_.monitor(result_.iterations, result_.energy, result_.gradient_norm))
         return finish(NewtonEnd::stopped);
     }
@@ -68,14 +72,28 @@ class Newton {
     return result_;
   }
 
+  void factorise_again() {
+    assembly_.derivatives(memory_.factored_at.get(), gradient_.get());
+    shift(assembly_.hessian(), trial_.get());
+    solver_.factorise(assembly_.hessian());
+  }
+
+  void remember_factor() {
+    memory_.has_factor = solver_.has_factor();
+    if (!solver_.renewed()) return;
+    if (memory_.factored_at.get() == nullptr) check_petsc(VecDuplicate(y_, memory_.factored_at.out()), "VecDuplicate");
+    check_petsc(VecCopy(y_, memory_.factored_at.get()), "VecCopy");
+  }
+
   // Truncated Newton direction; returns its slope g . dy.
   double solve_for_step() {
     shift(assembly_.hessian(), trial_.get());
-    const double relative = result_.gradient_norm / std::max(start_norm_, 1e-300);
+    const double relative = result_.gradient_norm / std::max(memory_.start_norm, 1e-300);
     const bool direct = options_.preconditioner == Preconditioner::cholesky;
     const double forcing = direct ? std::max(relative, 1e-12) : std::sqrt(relative);
     const double tolerance = std::min(options_.linear_tolerance, forcing);
     result_.linear_iterations += solver_.solve(assembly_.hessian(), gradient_.get(), step_.get(), tolerance);
+    remember_factor();
     check_petsc(VecScale(step_.get(), -1.0), "VecScale");
     PetscScalar slope = 0;
     check_petsc(VecDot(gradient_.get(), step_.get(), &slope), "VecDot");
@@ -111,8 +129,8 @@ class Newton {
   Vec y_;
   VecHandle gradient_, step_, trial_;
   NewtonResult result_;
-  double start_norm_ = 0;
-  double start_energy_ = 0;
+  NewtonMemory own_memory_;
+  NewtonMemory& memory_;
 };
 
 }  // namespace

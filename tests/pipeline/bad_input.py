@@ -129,6 +129,24 @@ def mesh_cases():
         yield expect(name, ["run", file, "-o", out], 3, [file.name, *words], out)
 
 
+def other_formats(good):
+    """The same kinds of damage to the other formats."""
+    for ending in ("msh", "mesh"):
+        whole_file = SCRATCH / f"whole.{ending}"
+        done = program.run(PROGRAM, 1, ["convert", good, whole_file])
+        if done.code != 0:
+            yield [f"convert to {ending}: exit code {done.code}: {done.err}"]
+            continue
+        whole = whole_file.read_bytes()
+        spoilt = {"empty": b"", "half": whole[: len(whole) // 2], "head_only": whole[:30],
+                  "garbage": whole[:60] + bytes((37 * i * i + 11 * i) % 256 for i in range(3000))}
+        for name, content in spoilt.items():
+            file = SCRATCH / f"{name}.{ending}"
+            file.write_bytes(content)
+            out = SCRATCH / f"{name}.{ending}.out"
+            yield expect(file.name, ["run", file, "-o", out], 3, [file.name], out)
+
+
 def usage_cases(good):
     out = SCRATCH / "usage.out"
     cases = [
@@ -221,7 +239,7 @@ def main():
     SCRATCH.mkdir(parents=True)
     good = box(2, 2, 1).write(SCRATCH / "good.vtk")
     wrong, cases = [], 0
-    for group in (mesh_cases(), usage_cases(good), output_cases(good), checkpoint_cases(good)):
+    for group in (mesh_cases(), other_formats(good), usage_cases(good), output_cases(good), checkpoint_cases(good)):
         for found in group:
             cases += 1
             wrong += found

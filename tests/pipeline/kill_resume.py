@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""kill_resume.py PROGRAM SCRATCH [--kills K] [--cells N] [--seed S]: kill -9 at random moments, then go on.
+"""kill_resume.py PROGRAM SCRATCH [--mesh FILE | --cells N] [--stage STAGE] [--kills K] [--seed S]: kill -9 at random
+moments, then go on.
 
 One run is left alone; another is killed K times at random moments and resumed, each time on another number of ranks.
 The hex meshes must be equal to 1e-8 in their coordinates, and the log must show no stage computed again that was in
-the checkpoint before.
+the checkpoint before. With --stage every kill comes inside that stage. The mesh: that of a geometry file by Gmsh, or of
+a box of N^3 cells.
 """
 
 import argparse
@@ -11,6 +13,7 @@ import json
 import random
 import re
 import shutil
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -81,24 +84,64 @@ def end_of(process, seconds):
     return None
 
 
-def main():
+def times_begun(log, stage):
+    return log.read_text().count(f" {stage} begins.") if log.exists() else 0
+
+
+def times_kept(log, stage):
+    return log.read_text().count(f" {stage} is in the checkpoint.") if log.exists() else 0
+
+
+def has_begun(process, log, stage, before):
+    """Waits until the stage begins once more; False when the run ends without."""
+    while times_begun(log, stage) == before:
+        if process.poll() is not None:
+            return False
+        time.sleep(0.005)
+    return True
+
+
+def input_mesh(a):
+    if a.mesh is None:
+        return box(a.cells, a.cells, a.cells).write(a.scratch / "box.vtk")
+    if a.mesh.suffix != ".geo":
+        return a.mesh
+    file = a.scratch / a.mesh.with_suffix(".msh").name
+    subprocess.run(["gmsh", "-3", "-nt", "1", "-format", "msh41", "-save_all", a.mesh, "-o", file], check=True,
+                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    return file
+
+
+def seconds_of(report, stage):
+    return next(s["seconds"] for s in json.loads(report.read_text())["stages"] if s["name"] == stage)
+
+
+def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("program", type=Path)
     parser.add_argument("scratch", type=Path)
     parser.add_argument("--kills", type=int, default=4)
     parser.add_argument("--cells", type=int, default=4)
+    parser.add_argument("--mesh", type=Path)
+    parser.add_argument("--stage")
     parser.add_argument("--hexes", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=1)
-    a = parser.parse_args()
+    return parser.parse_args()
+
+
+def main():
+    a = arguments()
     shutil.rmtree(a.scratch, ignore_errors=True)
     a.scratch.mkdir(parents=True)
-    mesh = box(a.cells, a.cells, a.cells).write(a.scratch / "box.vtk")
-    options = ["--target-hexes", a.hexes, "--checkpoint-interval", 0.2]
+    mesh = input_mesh(a)
+    options = ["--target-hexes", a.hexes, "--checkpoint-interval", 0.2, "--threads", 1]
 
     start = time.monotonic()
     alone = program.run(a.program, 1, ["run", mesh, "-o", a.scratch / "alone", *options], timeout=1800)
     lasts = time.monotonic() - start
     assert alone.code == 0, f"the run that is left alone: exit code {alone.code}: {alone.err}"
+    if a.stage:
+        lasts = seconds_of(a.scratch / "alone" / "report.json", a.stage)
 
     chance = random.Random(a.seed)
     out = a.scratch / "killed"
@@ -107,26 +150,41 @@ def main():
     while kills < a.kills:
         ranks = chance.choice([1, 2, 3])
         wait = chance.uniform(0.05, lasts)
-        code = end_of(program.start(a.program, ranks, resume), wait)
+        before = times_begun(out / "log.txt", a.stage)
+        process = program.start(a.program, ranks, resume)
+        if a.stage and not has_begun(process, out / "log.txt", a.stage, before):
+            code = end_of(process, 60)
+        else:
+            code = end_of(process, wait)
+        if code is None and a.stage and times_kept(out / "log.txt", a.stage) > 0:
+            shutil.rmtree(out)  # it came too late
+            continue
         if code is None:
             kills += 1
+            print(f"kill {kills}: {ranks} ranks, after {wait:.2f} s", flush=True)
             continue
         assert code == 0, f"after {kills} kills, on {ranks} ranks: exit code {code}"
         if recomputed_stages(out / "log.txt"):
             break
+        compare(a, out)
         # Finished before its kill: the next round starts with an empty directory.
         shutil.rmtree(out)
     done = program.run(a.program, 2, resume, timeout=1800)
     assert done.code == 0, f"after {kills} kills: exit code {done.code}: {done.err}"
-
-    again = recomputed_stages(out / "log.txt")
-    assert not again, f"computed again although in the checkpoint: {again}"
-    largest = largest_difference(a.scratch / "alone" / "hex.vtk", out / "hex.vtk")
-    assert largest <= 1e-8 * a.cells, f"coordinates differ by {largest}"
+    largest = compare(a, out)
     left = [p.name for p in out.iterdir() if "iterate" in p.name or "writing" in p.name]
     assert not left, f"files are left behind: {left}"
     restored = [s["name"] for s in json.loads((out / "report.json").read_text())["stages"] if s["restored"]]
-    print(f"{kills} kills over a run of {lasts:.1f} s; restored at the end: {restored}; largest difference {largest:.1e}")
+    what = f"stage {a.stage}" if a.stage else "a run"
+    print(f"{kills} kills over {what} of {lasts:.1f} s; restored at the end: {restored}; largest difference {largest:.1e}")
+
+
+def compare(a, out):
+    again = recomputed_stages(out / "log.txt")
+    assert not again, f"computed again although in the checkpoint: {again}"
+    largest = largest_difference(a.scratch / "alone" / "hex.vtk", out / "hex.vtk")
+    assert largest <= 1e-8 * (a.cells if a.mesh is None else 1), f"coordinates differ by {largest}"
+    return largest
 
 
 if __name__ == "__main__":

@@ -69,24 +69,29 @@ TEST(Options, AWrongKeyNamesTheNearestOne) {
 TEST(Options, ValuesAreCheckedAgainstTypeAndRange) {
   RunOptions options;
   OptionTable table(options);
-  for (const char* bad :
-       {"target_hexes=many", "target_hexes=0", "target_hexes=nan", "target_hexes=1e99", "threads=1.5", "threads=-1",
-        "check=yes", "feature_angle=181", "target_hexes=", "seed=99999999999999", "=3", "target_hexes"}) {
+  for (const char* bad : {"target_hexes=many", "target_hexes=0", "target_hexes=nan", "target_hexes=1e99", "threads=1.5",
+                          "threads=-1", "check=yes", "quantizer=best", "quantizer=", "min_layers=0",
+                          "feature_angle=181", "target_hexes=", "seed=99999999999999", "=3", "target_hexes"}) {
     EXPECT_EQ(failure([&] { table.set_assignment(bad); }).first, ExitCode::usage) << bad;
   }
   EXPECT_EQ(options.target_hexes, RunOptions().target_hexes);
+  EXPECT_THAT(failure([&] { table.set_assignment("quantizer=pomp"); }).second, HasSubstr("pump or ilp or rounding"));
+  table.set_assignment("quantizer=ilp");
+  EXPECT_EQ(options.quantizer, "ilp");
 }
 
 TEST(Options, TextOfAValueReadsBackToTheSameBits) {
   RunOptions options;
   options.field.smoothing_tolerance = 0.1 + 0.2;
   options.formats = {"vtk", "msh22"};
+  options.quantizer = "rounding";
   RunOptions copy;
   OptionTable from(options);
   OptionTable to(copy);
   for (const OptionEntry& entry : from.entries()) to.set(entry.key, value_text(entry), ExitCode::bug, "test");
   EXPECT_EQ(copy.field.smoothing_tolerance, options.field.smoothing_tolerance);
   EXPECT_EQ(copy.formats, options.formats);
+  EXPECT_EQ(copy.quantizer, "rounding");
 }
 
 TEST(Config, RefusesWhatItDoesNotKnow) {
@@ -115,7 +120,7 @@ TEST(Config, ReadsAnyBytesWithoutHarm) {
 }
 
 TEST(Stages, NamesResolve) {
-  EXPECT_EQ(resolve_stage("quantize"), "igm");
+  EXPECT_EQ(resolve_stage("quantize"), "quantize");
   for (const std::string& name : stage_names()) EXPECT_EQ(resolve_stage(name), name);
   const auto [code, sentence] = failure([] { resolve_stage("sow"); });
   EXPECT_EQ(code, ExitCode::usage);

@@ -126,22 +126,6 @@ TEST(EdgeRepair, ASingularTriangleIsRemovedByItsMatching) {
   EXPECT_FALSE(remove_singular_triangle(state, face));
 }
 
-TEST(EdgeRepair, AnArcOnTheBoundaryPassesBelowAVertex) {
-  RepairState state = box_state(4);
-  for (auto e = state.features.edges.begin(); e != state.features.edges.end();) {
-    const Vec3 middle = (state.mesh.point(e->first[0]) + state.mesh.point(e->first[1])) / 2;
-    e = middle.y() == 0 && middle.z() == 0 ? state.features.edges.erase(e) : std::next(e);
-  }
-  const VertexId v = vertex_at(state.mesh, {2, 0, 0});
-  ASSERT_EQ(singular_edges_at(state, v).size(), 2u);
-  ASSERT_TRUE(push_inside(state, v));
-  EXPECT_TRUE(singular_edges_at(state, v).empty());
-  EXPECT_EQ(high_codes(state), 0);
-  for (VertexId end : {vertex_at(state.mesh, {1, 0, 0}), vertex_at(state.mesh, {3, 0, 0})})
-    EXPECT_EQ(singular_edges_at(state, end).size(), 2u);
-  EXPECT_FALSE(push_inside(state, v));
-}
-
 TEST(EdgeRepair, SplitsIsolateAOneRing) {
   RepairState state = zipper_state();
   const VertexId v = vertex_at(state.mesh, {3, 1, 1});

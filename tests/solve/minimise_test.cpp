@@ -239,6 +239,17 @@ TEST(SolveLinear, FrameFitReproducesAnAffineMap) {
   }
 }
 
+// The same with all entries on rank 0.
+Vec make_vector_on_root(PetscInt n, const std::function<double(PetscInt)>& start, MPI_Comm comm) {
+  Vec y = nullptr;
+  VecCreateMPI(comm, rank(comm) == 0 ? n : 0, n, &y);
+  if (rank(comm) == 0)
+    for (PetscInt i = 0; i < n; ++i) VecSetValue(y, i, start(i), INSERT_VALUES);
+  VecAssemblyBegin(y);
+  VecAssemblyEnd(y);
+  return y;
+}
+
 // A stretched, pinned box; the minimiser is unique.
 std::vector<double> stretched_box(MPI_Comm comm) {
   const TetMesh mesh = testing::kuhn_box(5, 3, 3);
@@ -277,6 +288,46 @@ TEST(Minimise, SameResultForAnyNumberOfRanks) {
   const auto alone = stretched_box(MPI_COMM_SELF);
   ASSERT_EQ(together.size(), alone.size());
   for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_NEAR(together[i], alone[i], 1e-8 * 7);
+}
+
+// A squashed box with two corners pulled apart, given up after a few steps, far from converged. `stop`: ends there, and
+// goes on from what it remembers.
+std::vector<double> pulled_box(MPI_Comm comm, int stop = 0) {
+  const TetMesh mesh = testing::kuhn_box(4, 4, 3);
+  const TetEnergy energy = mesh_energy(mesh, TetEnergy::Kind::symmetric_dirichlet, Mat3::Identity(), comm);
+  LeastSquares pins;
+  const auto n = static_cast<PetscInt>(3 * mesh.num_vertices());
+  if (rank(comm) == 0)
+    for (int k = 0; k < 3; ++k) pins.add({{{k, 1.0}, {n - 3 + k, -1.0}}, 9.0 - k}, 1e4);
+  const EnergyTerm* terms[] = {&energy, &pins};
+  Vec y = make_vector_on_root(
+      n, [&](PetscInt i) { return start_of(mesh, i) * (i % 3 == 0 ? 0.3 : 1.0); }, comm);
+  NewtonOptions options;
+  options.preconditioner = Preconditioner::cholesky;
+  options.max_iterations = 6;
+  options.gradient_tolerance = 1e-12;
+  NewtonMemory memory;
+  options.memory = &memory;
+  if (stop > 0) {
+    options.monitor = [&](int iteration, double, double) { return iteration < stop; };
+    EXPECT_EQ(minimise(comm, terms, y, options).end, NewtonEnd::stopped);
+    options.monitor = nullptr;
+  }
+  const NewtonResult result = minimise(comm, terms, y, options);
+  EXPECT_EQ(result.end, NewtonEnd::iteration_limit);
+  EXPECT_EQ(result.iterations, 6);
+  auto values = gather(y);
+  VecDestroy(&y);
+  return values;
+}
+
+TEST(Minimise, SameBytesForAnyNumberOfRanksWhereOneOwnsTheUnknowns) {
+  EXPECT_EQ(pulled_box(MPI_COMM_WORLD), pulled_box(MPI_COMM_SELF));
+}
+
+TEST(Minimise, SameBytesAfterAnInterruption) {
+  const auto undisturbed = pulled_box(MPI_COMM_WORLD);
+  for (int stop : {1, 2, 5}) EXPECT_EQ(pulled_box(MPI_COMM_WORLD, stop), undisturbed);
 }
 
 }  // namespace

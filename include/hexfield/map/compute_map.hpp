@@ -48,6 +48,14 @@ SeamlessResult compute_seamless_map(MPI_Comm comm, const TetMesh& mesh, const Fe
                                     const FrameField& field, const EdgeCodes& codes, const SeamlessOptions& options,
                                     const Control& control);
 
+/// A seamless map of less extreme tets with the transitions, alignments and about the scale of `map`: for maps whose
+/// thinnest tets do not survive being made exact. Tets inverted in the conforming map closest to `map` are untangled
+/// first; then the symmetric Dirichlet energy is minimised where every tet weighs at least as much as a mean one: a
+/// higher barrier for small ones. `map` and `codes` on rank 0; charts of the result are combed. An invalid outcome is
+/// reported. Collective.
+SeamlessResult relax_seamless_map(MPI_Comm comm, const TetMesh& mesh, const Features& features, const EdgeCodes& codes,
+                                  const SeamlessMap& map, const Control& control);
+
 /// Values for the integer unknowns of a conforming space, for a map that is `scale` times the seamless one.
 struct IntegerChoice {
   double scale = 1;
@@ -59,6 +67,7 @@ struct IntegerChoice {
 struct IgmOptions {
   double target_hexes = 10000;
   double edge_length = 0;  ///< wanted hex edge length in input units; overrides target_hexes when > 0
+  int tries = 4;           ///< integers to try, each time for more hexes
   /// Takes the place of rounding when set: integers for about this number of hexes; called on rank 0 with the space
   /// of the seamless map. nullopt: none found.
   std::function<std::optional<IntegerChoice>(const ConformingSpace&, double hexes)> choose_integers;

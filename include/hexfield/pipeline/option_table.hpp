@@ -15,9 +15,10 @@ namespace hexfield {
 struct OptionEntry {
   std::string key;    ///< "target_hexes", or "<stage>.<field of the stage's options>"
   std::string stage;  ///< the first stage whose result depends on it; empty when none does
-  std::variant<double*, int*, bool*, std::vector<std::string>*> value;
+  std::variant<double*, int*, bool*, std::vector<std::string>*, std::string*> value;
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
+  std::vector<std::string> words{};  ///< of a text: those that it may be
 };
 
 /// All options of `options` by key; refers to it.

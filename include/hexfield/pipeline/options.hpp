@@ -22,6 +22,10 @@ struct RunOptions {
   FieldOptions field;
   RepairOptions repair;
   SeamlessOptions seamless;
+  std::string quantizer = "pump";  ///< how stage quantize finds integers: "pump", "ilp" or "rounding" (in stage igm)
+  int min_layers = 1;              ///< hexes along every feature and singular arc, and between those that must not meet
+  std::string fallback = "none";   ///< "rounding": round where the quantizer's integers cannot be reached
+  double ilp_time_limit = 120;     ///< seconds of one integer program
   IgmOptions igm;
   ImproveOptions improve;
   bool decompose = false;  ///< pull the singular nodes of the hex mesh apart where that raises its quality

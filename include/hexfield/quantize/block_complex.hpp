@@ -30,7 +30,8 @@ struct BlockComplex {
     bool singular = false;  ///< inner singular arc, or boundary arc that is not flat
     bool feature = false;
     bool boundary = false;
-    int code = 0;  ///< quarter-turns minus 4 (inner) or 2 (boundary)
+    int code = 0;        ///< quarter-turns minus 4 (inner) or 2 (boundary)
+    double turning = 0;  ///< sum of the angles between consecutive edges in the input's space, radians
   };
   struct Patch {
     std::array<std::int32_t, 2> blocks{-1, -1};  ///< ascending; the second is -1 on the boundary

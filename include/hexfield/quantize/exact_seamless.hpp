@@ -20,6 +20,9 @@ enum class ExactFailure {
   inverted_output,  ///< tets that are not positive once everything is exact
 };
 
+/// In a few words, for sentences.
+const char* name(ExactFailure failure);
+
 /// A seamless map made exact.
 struct ExactSeamless {
   /// Combed charts: the identity across all faces off a cut. Every transition, every aligned face and edge holds

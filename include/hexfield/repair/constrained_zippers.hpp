@@ -35,7 +35,8 @@ bool unzip_sector_transversally(RepairState& state, VertexId v, const ZipperOpti
 /// which the boundary goes on: the arc goes on beside the guide, which takes its opposite. False as above.
 bool unzip_along_guide(RepairState& state, VertexId v, const EdgeKey& edge, const ZipperOptions& options = {});
 
-/// Both for all zipper nodes on feature curves, ascending by vertex. Returns the number repaired.
+/// Both for all zipper nodes on feature curves, the first also for other bad nodes where feature curves meet, ascending
+/// by vertex; what fails leaves no splits. Copies the state for each. Returns the number repaired.
 int repair_constrained_zipper_nodes(RepairState& state, const ZipperOptions& options = {});
 
 }  // namespace hexfield

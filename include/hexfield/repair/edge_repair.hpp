@@ -31,9 +31,18 @@ bool lift_from_surface(RepairState& state, const EdgeKey& edge);
 /// Makes the three singular edges of an inner triangle regular by one matching, if that does it.
 bool remove_singular_triangle(RepairState& state, const FaceKey& face);
 
-/// An arc that runs along the boundary at v off all features (two singular edges of one code +-1, at least one of
-/// them on the boundary) is zipped through a fan inside: v gets regular, and the arc passes below it.
+/// Puts a vertex of the boundary that is on no feature curve one layer below the surface (paper section 5.2; spec-lmff
+/// section 5.4, "Boundary arcs off features: push inside"): a new vertex takes over its place and the surface. Singular
+/// edges that v has on the surface are inside afterwards and keep their codes; an arc that came to v across the surface
+/// goes on to the new vertex. False, and the state is as it was, where codes beyond +-1 or compound ones meet v, or
+/// no place below makes all tets positive. Copies the state: meant for a Neighbourhood. Frames are not smoothed.
 bool push_inside(RepairState& state, VertexId v);
+
+/// push_inside() for all vertices of all arcs that run along smooth surfaces, such that whole arcs go inside and stay
+/// on the surface only where they end on feature curves: connected arcs on boundary edges whose mean dihedral angle is
+/// within 45 degrees of flat, and inner arcs that touch the surface without crossing it. Returns the number of
+/// vertices pushed.
+int push_arcs_inside(RepairState& state);
 
 /// What repair_edges() did.
 struct EdgeRepairCounts {
@@ -41,11 +50,9 @@ struct EdgeRepairCounts {
   int total() const { return compound + index + sectors + lifted + triangles + pushed; }
 };
 
-/// Which of them repair_edges() applies. Stage I of the schedule leaves compound edges to shrink (section 5.7). Arcs
-/// that cannot be pushed inside along their whole length touch the surface at single vertices afterwards, which are
-/// not meshable: hence it is not done unless asked for.
+/// Which of them repair_edges() applies. Stage I of the schedule leaves compound edges to shrink (section 5.7).
 struct EdgeRepairOptions {
-  bool compound = true, index = true, sectors = true, lift = true, triangles = true, push = false;
+  bool compound = true, index = true, sectors = true, lift = true, triangles = true, push = true;
   int rounds = 6;  ///< at most; ends when a round mends nothing
 };
 

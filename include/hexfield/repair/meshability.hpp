@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/repair/repair_state.hpp"
 
 /// Local meshability (Liu & Bommes 2023, section 3 conditions C1 to C3 and section 5; spec-lmff section 7): does the
@@ -79,5 +80,9 @@ Meshability check_meshability(const FieldView& view, const VertexMapOptions& opt
 /// These edges and vertices only.
 Meshability check_meshability(const FieldView& view, std::span<const EdgeKey> edges, std::span<const VertexId> vertices,
                               const VertexMapOptions& options = {});
+
+/// find_defects() without the vertices where a map refutes it: the counts of codes that it knows are those of nodes
+/// where at most three feature edges meet.
+std::vector<Defect> unrefuted_defects(const FieldView& view, const VertexMapOptions& options = {});
 
 }  // namespace hexfield

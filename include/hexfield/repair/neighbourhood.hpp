@@ -33,8 +33,12 @@ class Neighbourhood {
   /// Tets of the parent in region and shell: what must not be shared by operations at the same time.
   std::span<const TetId> footprint() const { return tet_parent_; }
 
-  /// Replaces the region in `state`, which must still hold all tets of footprint(), by this one.
-  void commit(RepairState& state) const;
+  /// Local id of a copied tet of the parent; invalid when it is not here.
+  TetId to_local(TetId parent) const;
+
+  /// Replaces the region in `state`, which must still hold all tets of footprint(), by this one. Returns the ids that
+  /// the local vertices have there.
+  std::vector<VertexId> commit(RepairState& state) const;
 
  private:
   std::size_t num_copied_tets() const { return tet_parent_.size(); }

@@ -48,6 +48,10 @@ class OneRing {
   const Spoke* spoke(VertexId end) const;                       ///< null when the edge there is regular
   /// Place of a tet among tets(); -1 when it is not at the centre.
   int index(TetId t) const;
+  /// The spokes that tet index(t) is at, by place among spokes(), with their labels there (those that have labels).
+  const std::vector<std::pair<std::size_t, octahedral::Label>>& labels_at(int tet_index) const {
+    return labels_at_[static_cast<std::size_t>(tet_index)];
+  }
   /// Regions are the parts of the one-ring that feature faces separate; numbered from 0.
   int region(TetId t) const { return region_[static_cast<std::size_t>(index(t))]; }
   /// World direction of a label of a tet in the aligned frames.
@@ -61,6 +65,7 @@ class OneRing {
   std::vector<int> region_;
   std::vector<Quaternion> frames_;
   std::vector<Spoke> spokes_;
+  std::vector<std::vector<std::pair<std::size_t, octahedral::Label>>> labels_at_;
 };
 
 /// The label that runs along an edge in the first tet of its ring: fixed by the monodromy, perpendicular to the

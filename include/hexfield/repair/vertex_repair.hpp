@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "hexfield/repair/meshability.hpp"
 #include "hexfield/repair/ring_search.hpp"
 
@@ -12,7 +14,10 @@ namespace hexfield {
 struct RingScope {
   RingTarget target = RingTarget::free_arc;
   bool cross_surfaces = false;
-  bool from_surface = false;  ///< start from singular edges in feature faces too (last resort of section 5.5)
+  bool from_surface = false;   ///< start from singular edges in feature faces too (last resort of section 5.5)
+  bool from_features = false;  ///< and from feature edges, where more than two meet
+  /// Asked after each zipping; where it says no, that is undone and the next start or target tried. Empty: yes.
+  std::function<bool(RepairState&)> accept{};
 };
 
 /// (DT1) Singular arc detachment: two arcs of equal code through which a streamline passes leave the vertex as one.
@@ -26,14 +31,15 @@ bool unzip_arc(RepairState& state, VertexId v, const RingScope& scope = {RingTar
 bool reverse_sector(RepairState& state, VertexId v, const RingScope& scope = {RingTarget::any_edge});
 /// DT1 of a boundary-truncated sector: an arc leaves the vertex through the boundary face where its streamline goes
 /// out (through) or, with reversed flow, comes in (parallel).
-bool detach_to_boundary(RepairState& state, VertexId v, Flow flow);
+bool detach_to_boundary(RepairState& state, VertexId v, Flow flow, const RingScope& scope = {RingTarget::surface});
 /// (DT5) Transversal arc unzipping of a fully constrained parabolic sector: a sector of a feature surface between two
 /// special edges, one of them a feature, that holds no quad gets one by quarter-turns about the surface normal on
 /// both sides of the surface; then DT1 and DT2 clean up.
-bool unzip_transversally(RepairState& state, VertexId v);
+bool unzip_transversally(RepairState& state, VertexId v, const RingScope& scope = {});
 
 struct VertexRepairOptions {
-  int rounds = 10;         ///< operations per vertex
+  int rounds = 10;         ///< operations per vertex one after the other, and in a sequence
+  int search_steps = 20;   ///< states from which the search for a sequence goes on
   bool reversals = true;   ///< DT3 and DT4 with edges of other codes, which leave zipper nodes on features
   VertexMapOptions map{};  ///< of the meshability test
 };
@@ -43,9 +49,11 @@ struct VertexRepairOptions {
 bool needs_repair(const RepairState& state, VertexId v, const VertexRepairOptions& options = {});
 
 /// Tries the operations in the order of spec-lmff section 5.5 for an inner vertex, one on an inner feature surface or
-/// one on the boundary, while they succeed and the vertex is not meshable. Editable must be all tets that touch the
-/// tets at v (Place with rings = 1). Returns whether the field changed; if not, neither did the mesh. Copies `local`
-/// for each try.
+/// one on the boundary, while they succeed and the vertex is not meshable. Each must leave fewer parabolic sectors at
+/// v, or as many and fewer edges, and no new vertex near it that no hex mesh has. Where three or more feature edges
+/// meet and that does not do it, a sequence of operations is looked for that makes v meshable as a whole, with DT5 and
+/// the detachment of feature edges through the boundary. Editable must be all tets that touch the tets at v (Place with
+/// rings = 1). Returns whether the field changed; if not, neither did the mesh. Copies `local` for each try.
 bool repair_vertex(RepairState& local, VertexId v, const VertexRepairOptions& options = {});
 
 }  // namespace hexfield

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "hexfield/solve/petsc_handle.hpp"
+
 namespace hexfield::solve {
 
 /// A sum of element energies E(y) = sum_e E_e(y restricted to e) over distributed unknowns y; each rank
@@ -37,6 +39,16 @@ enum class Preconditioner {
   block_jacobi,  ///< point blocks of `block_size`
 };
 
+/// What a minimisation remembers between its steps besides y. Given back to minimise() with the y of the same moment,
+/// it goes on as if it had never been interrupted, to the byte.
+struct NewtonMemory {
+  int iterations = 0;       ///< steps taken; 0 for a fresh start
+  double start_norm = 0;    ///< of the gradient at the start
+  double start_energy = 0;  ///< size of the energy there
+  bool has_factor = false;  ///< a factorisation serves further steps; `factored_at` is the y of its Hessian
+  VecHandle factored_at;
+};
+
 struct NewtonOptions {
   int max_iterations = 500;
   double gradient_tolerance = 1e-6;   ///< stop when |g| <= tolerance * max(1, |g at the start|)
@@ -50,6 +62,8 @@ struct NewtonOptions {
   /// Called after every accepted step with (iteration, energy, gradient norm); return false to stop.
   /// Called on all ranks with the same values; must return the same on all.
   std::function<bool(int, double, double)> monitor;
+  /// Where to go on, and kept up to date for the monitor; may be null.
+  NewtonMemory* memory = nullptr;
 };
 
 enum class NewtonEnd { converged, iteration_limit, stopped, no_descent };

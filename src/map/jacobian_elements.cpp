@@ -1,8 +1,6 @@
-#include "untangle_energy.hpp"
+#include "jacobian_elements.hpp"
 
 #include <algorithm>
-
-#include "hexfield/solve/untangling.hpp"
 
 namespace hexfield {
 namespace {
@@ -20,8 +18,8 @@ Vec9 flat(const Mat3& m) {
 
 }  // namespace
 
-void UntangleEnergy::add(const solve::GradientOperator& gradient, double weight,
-                         const std::array<solve::AffineScalar, 12>& corners, const Mat3& frame, const Mat3&) {
+void JacobianElements::add(const solve::GradientOperator& gradient, double weight,
+                           const std::array<solve::AffineScalar, 12>& corners, const Mat3& frame, const Mat3&) {
   const solve::GradientOperator d = gradient * frame;
   Mat3 offset = Mat3::Zero();
   const std::size_t first = unknowns_.size();
@@ -45,21 +43,21 @@ void UntangleEnergy::add(const solve::GradientOperator& gradient, double weight,
   offsets_.push_back(offset);
 }
 
-Mat3 UntangleEnergy::jacobian(std::size_t e, std::span<const double> y) const {
+Mat3 JacobianElements::matrix(std::size_t e, std::span<const double> y) const {
   Vec9 j = flat(offsets_[e]);
   for (std::size_t k = 0; k < y.size(); ++k) j += y[k] * columns_[first_[e] + k];
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(j.data());
 }
 
-double UntangleEnergy::value(std::size_t e, std::span<const double> y) const {
-  return weights_[e] * solve::untangle_energy(jacobian(e, y), epsilon_);
+double JacobianElements::value(std::size_t e, std::span<const double> y) const {
+  return weights_[e] * of(matrix(e, y));
 }
 
-double UntangleEnergy::derivatives(std::size_t e, std::span<const double> y, std::span<double> gradient,
-                                   std::span<double> hessian) const {
+double JacobianElements::derivatives(std::size_t e, std::span<const double> y, std::span<double> gradient,
+                                     std::span<double> hessian) const {
   Vec9 g;
   Mat9 h;
-  const double value = solve::untangle_energy(jacobian(e, y), epsilon_, g, h);
+  const double value = of(matrix(e, y), g, h);
   const std::size_t n = y.size();
   for (std::size_t a = 0; a < n; ++a) {
     const Vec9& column = columns_[first_[e] + a];

@@ -1,4 +1,4 @@
-#include "exact_sum.hpp"
+#include "hexfield/base/exact_sum.hpp"
 
 #include <algorithm>
 #include <cmath>

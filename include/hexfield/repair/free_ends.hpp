@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "hexfield/repair/repair_state.hpp"
+
+namespace hexfield {
+
+/// Regular vertices of feature curves (two feature edges of one code) at which exactly one singular arc of the
+/// inside ends, ascending. Such an arc has the coordinates of the curve in every map, along its whole length: where its
+/// other end lies beside another curve of the same plane, no injective map exists although every one-ring has one.
+std::vector<VertexId> ends_on_curves(const RepairState& state);
+
+/// Moves the end of the arc off the curve into the feature face that it is perpendicular to (DT1 of a
+/// boundary-truncated sector), so that curve and arc get coordinates of their own. Editable must be
+/// all tets that touch the tets at v. False when there is no such face or a vertex there would need repair; `local`
+/// is then as it was.
+bool free_arc_end(RepairState& local, VertexId v);
+
+}  // namespace hexfield

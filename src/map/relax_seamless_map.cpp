@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <cmath>
+
+#include "collective.hpp"
+#include "hexfield/base/agree.hpp"
+#include "hexfield/map/compute_map.hpp"
+#include "hexfield/map/verify.hpp"
+#include "map_problem.hpp"
+#include "solve_monitor.hpp"
+#include "untangle.hpp"
+
+namespace hexfield {
+namespace {
+
+constexpr int untangling_rounds = 30;
+constexpr int max_newton_steps = 120;
+
+/// Share in the total volume, at least that of a mean tet.
+std::vector<double> raised_weights(const MapProblem& problem) {
+  std::vector<double> weights = problem.volume_weights();
+  const double mean = 1 / static_cast<double>(problem.distributed().num_global_tets());
+  for (double& w : weights) w = std::max(w, mean);
+  return weights;
+}
+
+}  // namespace
+
+SeamlessResult relax_seamless_map(MPI_Comm comm, const TetMesh& mesh, const Features& features, const EdgeCodes& codes,
+                                  const SeamlessMap& map, const Control& control) {
+  const bool root = rank_of(comm) == 0;
+  SolveMonitor monitor(control, "seamless");
+  ConformingSpace space;
+  std::vector<double> unknowns;
+  double edge = 1;
+  agree(comm, [&] {
+    if (!root) return;
+    space = conforming_space(mesh, cut_graph(mesh, matchings_of(map), singular_edges(codes)),
+                             alignments_of_map(mesh, features, codes, map));
+    unknowns = unknowns_of(mesh, space, map);
+    double volume = 0;
+    for (std::size_t t = 0; t < mesh.num_tets(); ++t) volume += signed_volume6(mesh, TetId(t)) / 6;
+    edge = std::cbrt(volume / std::max(parametric_volume(map), 1e-300));
+  });
+  broadcast(comm, edge);
+  const MapProblem problem(comm, mesh, space);
+  unknowns = untangle(problem, unknowns, {}, edge, untangling_rounds, monitor);
+  solve::TetEnergy energy(solve::TetEnergy::Kind::symmetric_dirichlet);
+  problem.add_elements(energy, raised_weights(problem), problem.uniform_frames(edge), {});
+  const solve::EnergyTerm* terms[] = {&energy};
+  const VecOwner y(problem.make_vector(unknowns, false));
+  if (std::isfinite(solve::evaluate(comm, terms, y.get()))) {
+    solve::NewtonOptions newton;
+    newton.preconditioner = solve::Preconditioner::cholesky;
+    newton.max_iterations = max_newton_steps;
+    // The gradient of a start with thin tets is huge, so it measures nothing.
+    newton.gradient_tolerance = 0;
+    newton.decrease_tolerance = 1e-8;
+    monitor.minimise(comm, terms, y.get(), newton, "seamless map", {});
+    unknowns = problem.gather(y.get(), {});
+  }
+  SeamlessResult result;
+  agree(comm, [&] {
+    if (!root) return;
+    quantize_to_dyadic_grid(space, unknowns);
+    result.map = to_corner_map(space, coordinates(space, unknowns));
+    result.report = verify_map(mesh, features, codes, result.map);
+  });
+  broadcast(comm, result.report);
+  result.newton_steps = monitor.newton_steps();
+  result.linear_iterations = monitor.linear_iterations();
+  result.solves = monitor.solves();
+  return result;
+}
+
+}  // namespace hexfield
