@@ -73,7 +73,7 @@ class Decomposer {
     for (std::size_t k = 0; k < beam.size(); ++k) {
       const int targets = width_ > 1 ? 2 : 4;
       auto found = beam[k].sheets(options_, most, targets, 6 * width_, measure_);
-      complete_ = complete_ && found.complete;
+      if (most < 0) complete_ = complete_ && found.complete;
       steps_ += found.steps;
       for (auto& sheet : found.sheets) moves.push_back({k, beam[k].measure() + sheet.change, std::move(sheet)});
       if (steps_ >= options_.budget) break;

@@ -14,9 +14,12 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double negligible = 1e-7;  // share of a corner in the smooth minimum
 constexpr int most_cg_steps = 80;
+// Scaled Jacobians do not feel the lengths of edges: without more, some collapse. Edges shorter than this share of
+// those around count like corners.
+constexpr double short_edge = 0.2;
 
-/// A corner that counts: its share, its vertices as numbers of the active ones and the derivative of its scaled
-/// Jacobian by each, along the directions in which that vertex can go.
+/// A corner, or an edge by its two ends, that counts: its share, its vertices as numbers of the active ones and the
+/// derivative of its scaled Jacobian by each, along the directions in which that vertex can go.
 struct ActiveCorner {
   double share;
   std::array<int, 4> vertices;
@@ -64,6 +67,9 @@ class Maximiser {
  private:
   void hold();
   void measure_lengths();
+  double edge_value(std::size_t e, const std::vector<Vec3>& points) const {
+    return (points[at(edges_[e][0])] - points[at(edges_[e][1])]).norm() / shortest_[e];
+  }
   double minimum(const std::vector<Vec3>& points) const { return smooth(points, -1); }
   double smooth(const std::vector<Vec3>& points, double p) const;
   void collect(double p);
@@ -82,6 +88,8 @@ class Maximiser {
   hex::VertexPlaces places_;
   const MaximiseOptions& options_;
   const Control& control_;
+  std::vector<std::array<int, 2>> edges_;
+  std::vector<double> shortest_;   ///< per edge: the length that counts as a scaled Jacobian of 1
   std::vector<char> held_;         ///< per vertex
   std::vector<int> number_;        ///< per vertex: among the active ones, -1
   std::vector<double> mean_edge_;  ///< per vertex
@@ -115,9 +123,13 @@ void Maximiser::measure_lengths() {
       }
     }
   for (std::size_t v = 0; v < mean_edge_.size(); ++v) mean_edge_[v] = count[v] > 0 ? mean_edge_[v] / count[v] : 1;
+  edges_ = hex::sorted_edges(mesh_);
+  shortest_.resize(edges_.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    shortest_[e] = short_edge * (mean_edge_[at(edges_[e][0])] + mean_edge_[at(edges_[e][1])]) / 2;
 }
 
-// -(1/p) log sum exp(-p SJ); for negative p the smallest SJ itself.
+// -(1/p) log sum exp(-p SJ) over corners and edges; for negative p the smallest SJ itself.
 double Maximiser::smooth(const std::vector<Vec3>& points, double p) const {
   std::vector<double> values(8 * mesh_.hexes.size());
   parallel_for(mesh_.hexes.size(), 512, [&](std::size_t begin, std::size_t end) {
@@ -132,8 +144,9 @@ double Maximiser::smooth(const std::vector<Vec3>& points, double p) const {
         values[8 * h + c] = u.cross(v).dot(w) / std::max(u.norm() * v.norm() * w.norm(), 1e-300);
       }
   });
+  if (p < 0) return std::min(1.0, *std::min_element(values.begin(), values.end()));
+  for (std::size_t e = 0; e < edges_.size(); ++e) values.push_back(edge_value(e, points));
   const double least = std::min(1.0, *std::min_element(values.begin(), values.end()));
-  if (p < 0) return least;
   double sum = 0;
   for (double s : values)
     if (p * (s - least) < 40) sum += std::exp(-p * (s - least));
@@ -189,11 +202,23 @@ void Maximiser::collect(double p) {
       members.push_back(c.vertices);
       corners_.push_back(c);
     }
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const double g = edge_value(e, mesh_.points);
+    ActiveCorner c{};
+    c.share = std::exp(-p * (g - value));
+    if (c.share < negligible || g <= 0) continue;
+    const auto [a, b] = edges_[e];
+    c.vertices = {a, b, -1, -1};
+    c.gradient[1] = (mesh_.points[at(b)] - mesh_.points[at(a)]) / (g * shortest_[e] * shortest_[e]);
+    c.gradient[0] = -c.gradient[1];
+    members.push_back({a, b, a, b});
+    corners_.push_back(c);
+  }
   activate(members);
   gradient_.assign(active_.size(), Vec3::Zero());
   for (ActiveCorner& c : corners_)
     for (std::size_t k = 0; k < 4; ++k) {
-      c.vertices[k] = number_[at(c.vertices[k])];
+      if (c.vertices[k] >= 0) c.vertices[k] = number_[at(c.vertices[k])];
       if (c.vertices[k] < 0) continue;
       c.gradient[k] = tangents_[at(c.vertices[k])] * c.gradient[k];
       gradient_[at(c.vertices[k])] += c.share * c.gradient[k];

@@ -23,6 +23,14 @@ std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 33U);
 }
 
+// All sheets through the quads, or the one that the paper's propagation makes of them. False when there may be more.
+bool follow(SheetSearch& search, const std::vector<int>& quads, bool exact, std::vector<SheetCandidate>& out) {
+  if (exact) return search.find(quads, out);
+  SheetCandidate sheet{search.propagate_greedily(quads), 0};
+  if (!sheet.quads.empty() && search.evaluate(sheet.quads, sheet.change)) out.push_back(std::move(sheet));
+  return false;
+}
+
 }  // namespace
 
 SheetState::SheetState(HexMesh mesh, std::vector<DecomposeStep> steps, NodeMeasure& measure)
@@ -177,12 +185,7 @@ SheetState::Found SheetState::sheets(const DecomposeOptions& options, int most, 
       std::vector<SheetCandidate> here;
       for (const Seed& seed : seeds_at(v, max_valence, most, measure, found.complete)) {
         if (!bends_of(v, seed.cycle).empty()) continue;
-        if (exact) {
-          found.complete = search.find(quads_of(v, seed.cycle), here) && found.complete;
-        } else if (SheetCandidate sheet{search.propagate_greedily(quads_of(v, seed.cycle)), 0};
-                   !sheet.quads.empty() && search.evaluate(sheet.quads, sheet.change)) {
-          here.push_back(std::move(sheet));
-        }
+        found.complete = follow(search, quads_of(v, seed.cycle), exact, here) && found.complete;
       }
       keep_possible(here, most, keep);
       found.sheets.insert(found.sheets.end(), here.begin(), here.end());
@@ -194,7 +197,7 @@ SheetState::Found SheetState::sheets(const DecomposeOptions& options, int most, 
   }
   found.sheets.insert(found.sheets.end(), all.sheets.begin(), all.sheets.end());
   if (found.sheets.empty()) found.complete = found.complete && by_seeds ? found.complete : all.complete;
-  if (found.sheets.empty() && exact) add_bent_sheets(options, most, keep, measure, found);
+  if (found.sheets.empty()) add_bent_sheets(options, most, keep, measure, found);
   std::sort(found.sheets.begin(), found.sheets.end());
   found.sheets.erase(std::unique(found.sheets.begin(), found.sheets.end(),
                                  [](const SheetCandidate& a, const SheetCandidate& b) { return a.quads == b.quads; }),
@@ -218,7 +221,7 @@ void SheetState::add_bent_sheets(const DecomposeOptions& options, int most, std:
       const QuadClasses classes = build_quad_classes(complex_, features, bends);
       SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits);
       std::vector<SheetCandidate> here;
-      search.find(quads_of(v, seed.cycle), here);
+      follow(search, quads_of(v, seed.cycle), options.search == DecomposeOptions::Search::exact, here);
       keep_possible(here, most, keep);
       found.steps += search.steps_taken();
       found.sheets.insert(found.sheets.end(), here.begin(), here.end());

@@ -21,7 +21,7 @@ struct DecomposeOptions {
   int width = 0;                     ///< sequences followed side by side; 0: by the size of the mesh
   std::int64_t budget = 5000000;     ///< classes tried in all before the search ends
   std::int64_t seed_budget = 20000;  ///< classes tried for one seed
-  int branches = 2000;               ///< of the integer program for all sheets at once
+  int branches = 500;                ///< of the integer program for all sheets at once
 };
 
 struct DecomposeStep {

@@ -41,8 +41,9 @@ struct MaximiseOptions {
 };
 /// Maximises the smallest corner scaled Jacobian over all movable vertices at once (spec-sheets section 8): minimises
 /// (1/p) log sum exp(-p SJ) for growing p by Gauss-Newton steps (the corners linear, the outer function exact) with
-/// damping, each solved by conjugate gradients. All hexes must be positive; the minimum never falls. The same bytes
-/// for any number of threads. Not collective. Throws Error(stopped) between steps; `hexes` is then the best so far.
+/// damping, each solved by conjugate gradients. Edges below a fifth of the length of those around count, too, so that
+/// none collapses. All hexes must be positive; the minimum never falls. The same bytes for any number of threads. Not
+/// collective. Throws Error(stopped) between steps; `hexes` is then the best so far.
 void maximise_minimum(HexMesh& hexes, const MaximiseOptions& options, const Control& control);
 
 /// The same on a shape: boundary vertices slide on the surface of their colour, curve vertices on their curve, feature
