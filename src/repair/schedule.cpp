@@ -93,6 +93,9 @@ Schedule::Schedule(RepairIterate& iterate, const FieldResult& input, const Repai
 
 template <class Work>
 void Schedule::timed(const std::string& kind, const Work& work) {
+  // Whoever goes on repeats this iteration: the iterate of the last one is the newest that can be taken up.
+  if (control_.stop_requested && control_.stop_requested())
+    throw Error(ExitCode::stopped, "The repair of the field was stopped.");
   if (control_.progress) control_.progress(kind, -1);
   const auto start = std::chrono::steady_clock::now();
   const long done = work();
