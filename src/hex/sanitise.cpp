@@ -176,8 +176,9 @@ void Sanitiser::pin_face(HalfFaceId h, std::vector<Pin>& pins, Found& found) con
   const Vec3& a = uvw(h.tet(), v[0]);
   const Vec3& b = uvw(h.tet(), v[1]);
   const Vec3& c = uvw(h.tet(), v[2]);
+  // The coordinate that varies least: a face may be collapsed onto a line.
   Eigen::Index axis = 0;
-  (b - a).cross(c - a).cwiseAbs().maxCoeff(&axis);
+  (a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)).minCoeff(&axis);
   const double mean = (a[axis] + b[axis] + c[axis]) / 3;
   const Vec3 spread(a[axis] - mean, b[axis] - mean, c[axis] - mean);
   const char* what = mesh_.is_boundary(h) ? "a boundary face" : "a feature face";

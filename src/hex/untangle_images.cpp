@@ -23,12 +23,14 @@ class ImageUntangler {
 
   std::vector<VertexId> run() {
     std::vector<char> moved(mesh_.num_vertices(), 0);
+    // First what one vertex alone can put right: less may lead into a dead end.
+    bool alone = true;
     for (int pass = 0; pass < max_passes; ++pass) {
-      const std::vector<VertexId> near = vertices_near_bad_tets(pass >= 3);
       bool any = false;
-      for (VertexId v : near)
-        if (improve(v)) moved[v.index()] = 1, any = true;
-      if (!any) break;
+      for (VertexId v : vertices_of_bad_tets())
+        if (improve(v, alone)) moved[v.index()] = 1, any = true;
+      if (!any && !alone) break;
+      alone = alone && any;
     }
     std::vector<VertexId> list;
     for (std::size_t v = 0; v < moved.size(); ++v)
@@ -41,8 +43,8 @@ class ImageUntangler {
     const auto& c = map_.corners[t.index()];
     return orient3d(c[0], c[1], c[2], c[3]) > 0;
   }
-  std::vector<VertexId> vertices_near_bad_tets(bool ring) const;
-  bool improve(VertexId v);
+  std::vector<VertexId> vertices_of_bad_tets() const;
+  bool improve(VertexId v, bool alone);
   bool unfold(VertexId v, Star& star) const;
   Vec3 ascend(const Star& star, const Vec3& start, unsigned pinned) const;
   void write(VertexId v, const Star& star, const Vec3& place, unsigned pinned);
@@ -53,17 +55,13 @@ class ImageUntangler {
   const std::vector<std::uint8_t>& pinned_;
 };
 
-std::vector<VertexId> ImageUntangler::vertices_near_bad_tets(bool ring) const {
-  std::vector<VertexId> near;
+std::vector<VertexId> ImageUntangler::vertices_of_bad_tets() const {
+  std::vector<VertexId> found;
   for (std::size_t t = 0; t < mesh_.num_tets(); ++t)
-    if (!positive(TetId(t))) near.insert(near.end(), mesh_.tets[t].begin(), mesh_.tets[t].end());
-  const std::size_t n = ring ? near.size() : 0;
-  for (std::size_t k = 0; k < n; ++k)
-    for (const TetId* t = star_.begin(near[k]); t != star_.end(near[k]); ++t)
-      near.insert(near.end(), mesh_.vertices(*t).begin(), mesh_.vertices(*t).end());
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  return near;
+    if (!positive(TetId(t))) found.insert(found.end(), mesh_.tets[t].begin(), mesh_.tets[t].end());
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 Vec3 units(const Fixed3& x, std::int64_t one) {
@@ -157,14 +155,16 @@ void ImageUntangler::write(VertexId v, const Star& star, const Vec3& place, unsi
   }
 }
 
-bool ImageUntangler::improve(VertexId v) {
+// `alone`: only when all tets at v become positive.
+bool ImageUntangler::improve(VertexId v, bool alone) {
   const unsigned pinned = pinned_[v.index()];
   if ((pinned & 7U) == 7U || star_.begin(v) == star_.end(v)) return false;
   Star star;
   if (!unfold(v, star)) return false;
   const Vec3 start = units(map_.corner(star.tets[0], mesh_.local_index(star.tets[0], v)), map_.one());
   const Vec3 place = ascend(star, start, pinned);
-  if (place == start) return false;
+  std::size_t worst = 0;
+  if (place == start || (alone && measure(star, place, worst) <= 1e-6)) return false;
   write(v, star, place, pinned);
   return true;
 }

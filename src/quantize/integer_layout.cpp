@@ -62,6 +62,11 @@ IntegerLayout::IntegerLayout(const BlockComplex& complex, const std::vector<std:
       }
     require(stack.size() == block.nodes.size(), "The arcs of a block are not connected.");
   }
+  rectangles_.resize(complex.patches.size());
+  for (std::size_t p = 0; p < complex.patches.size(); ++p)
+    for (std::size_t s = 0; s < 2; ++s)
+      if (complex.patches[p].blocks[s] >= 0)
+        rectangles_[p][s] = find_rectangle(complex.patches[p].blocks[s], static_cast<std::int32_t>(p));
 }
 
 std::size_t IntegerLayout::entry(std::int32_t block, std::int32_t node) const {
@@ -80,7 +85,7 @@ const Integer3& IntegerLayout::real_place(std::int32_t block, std::int32_t node)
   return complex_.blocks[static_cast<std::size_t>(block)].nodes[entry(block, node)].second;
 }
 
-IntegerBox IntegerLayout::rectangle(std::int32_t block, std::int32_t patch) const {
+IntegerBox IntegerLayout::find_rectangle(std::int32_t block, std::int32_t patch) const {
   bool first = true;
   IntegerBox box;
   for (const auto& side : complex_.patches[static_cast<std::size_t>(patch)].sides)

@@ -34,16 +34,22 @@ class IntegerLayout {
   /// Place in the real layout, grid steps.
   const BlockComplex::Integer3& real_place(std::int32_t block, std::int32_t node) const;
   const IntegerBox& cuboid(std::int32_t block) const { return cuboids_[static_cast<std::size_t>(block)]; }
-  IntegerBox rectangle(std::int32_t block, std::int32_t patch) const;
+  /// Of a patch of the block, in the block's chart.
+  const IntegerBox& rectangle(std::int32_t block, std::int32_t patch) const {
+    const auto p = static_cast<std::size_t>(patch);
+    return rectangles_[p][complex_.patches[p].blocks[0] == block ? 0 : 1];
+  }
   std::int64_t length(std::int32_t arc) const { return lengths_[static_cast<std::size_t>(arc)]; }
 
  private:
   std::size_t entry(std::int32_t block, std::int32_t node) const;
+  IntegerBox find_rectangle(std::int32_t block, std::int32_t patch) const;
 
   const BlockComplex& complex_;
   std::vector<std::int64_t> lengths_;
   std::vector<std::vector<BlockComplex::Integer3>> places_;  // beside Block::nodes
   std::vector<IntegerBox> cuboids_;
+  std::vector<std::array<IntegerBox, 2>> rectangles_;  // beside Patch::blocks
 };
 
 }  // namespace hexfield::quantize

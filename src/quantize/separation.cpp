@@ -41,10 +41,20 @@ std::vector<Separation> SeparationSearch::run(const std::vector<std::int64_t>& l
   found_.clear();
   for (std::size_t n = 0; n < complex_.nodes.size(); ++n)
     if (critical_.nodes[n] != 0)
-      for (std::int32_t a : stars_.node_arcs[n]) from_node(static_cast<std::int32_t>(n), a);
+      for (std::int32_t a : stars_.node_arcs[n])
+        if (layout_->length(a) < layers_) from_node(static_cast<std::int32_t>(n), a);
   for (const Link& link : critical_.links)
-    for (std::int32_t p : stars_.node_patches[static_cast<std::size_t>(link.nodes[0])]) from_link(link, p);
+    if (!leads_nowhere(link))
+      for (std::int32_t p : stars_.node_patches[static_cast<std::size_t>(link.nodes[0])]) from_link(link, p);
   return std::move(found_);
+}
+
+// No arc that leaves the link is short enough to lead to anything close.
+bool SeparationSearch::leads_nowhere(const Link& link) const {
+  for (std::int32_t n : link.nodes)
+    for (std::int32_t a : stars_.node_arcs[static_cast<std::size_t>(n)])
+      if (layout_->length(a) < layers_) return false;
+  return true;
 }
 
 // The entities to be found are those closer than the number of layers.
@@ -97,14 +107,14 @@ void SeparationSearch::from_link(const Link& link, std::int32_t patch) {
       arcs_at(at.node, r, [&](std::int32_t a, Label label) {
         if (label == source.leaves && !contains(left, a)) {
           left.push_back(a);
-          leave(source, {at.node, r.block, r.turn, at.offset}, a, label);
+          if (stays_close(source, a, label, at)) leave(source, {at.node, r.block, r.turn, at.offset}, a, label);
         }
         if (!next && i < link.arcs.size() && a == link.arcs[i] && label == along) next = follow(at, r, a, label);
       });
     if (!next) break;
     at = *next;
   }
-  search(source);
+  if (!queue_.empty()) search(source);
 }
 
 SeparationSearch::Place SeparationSearch::follow(const Place& at, const Reached& r, std::int32_t arc,
@@ -140,6 +150,7 @@ void SeparationSearch::search(const Source& source) {
       arcs_at(state.place.node, r, [&](std::int32_t a, Label label) {
         if (label == octahedral::negate(source.leaves) || contains(taken, a)) return;
         if (a == steps_[static_cast<std::size_t>(state.last)].arc) return;
+        if (!stays_close(source, a, label, state.place)) return;
         taken.push_back(a);
         const Place next = follow(state.place, r, a, label);
         if (expanded_[static_cast<std::size_t>(next.node)] == sector_) return;

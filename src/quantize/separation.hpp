@@ -61,6 +61,7 @@ class SeparationSearch {
   void widen(Source& source) const;
   void from_node(std::int32_t node, std::int32_t arc);
   void from_link(const Link& link, std::int32_t patch);
+  bool leads_nowhere(const Link& link) const;
   void leave(const Source& source, const Place& from, std::int32_t arc, Label label);
   void search(const Source& source);
   void flood(const Source& source, const Place& at, std::vector<Reached>& reached) const;
@@ -68,6 +69,13 @@ class SeparationSearch {
   bool violated(const Source& source, const State& state, const std::vector<Reached>& reached);
   bool report(const Source& source, const State& state, unsigned hit_axes);
   IntegerBox in_block(const Source& source, const Place& at, const Reached& r) const;
+  /// Whether a walk may go on over this arc: the steps in the first direction only add up, and must stay below the
+  /// number of layers for any coincidence.
+  bool stays_close(const Source& source, std::int32_t arc, Label label, const Place& at) const {
+    if (label != source.leaves) return true;
+    const std::int64_t walked = at.offset[static_cast<std::size_t>(octahedral::axis(label))];
+    return ((label & 1) != 0 ? -walked : walked) + layout_->length(arc) < layers_;
+  }
   Place follow(const Place& at, const Reached& r, std::int32_t arc, Label label) const;
   /// Arcs of a block at a node, with the direction away from the node in the start frame.
   template <class Visit>
