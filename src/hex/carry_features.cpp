@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "hexfield/base/parallel.hpp"
 
@@ -32,8 +33,15 @@ HalfFaceId find_face(const TetMesh& mesh, const VertexTets& star, const FaceKey&
 class Carrier {
  public:
   Carrier(const TetMesh& mesh, const Features& features, const FixedMap& map, const VertexTets& star,
-          const LatticeVertices& vertices, const Cells& cells, HexMesh& out)
-      : mesh_(mesh), features_(features), map_(map), star_(star), vertices_(vertices), cells_(cells), out_(out) {}
+          const LatticeVertices& vertices, const Cells& cells, HexMesh& out, bool partial)
+      : mesh_(mesh),
+        features_(features),
+        map_(map),
+        star_(star),
+        vertices_(vertices),
+        cells_(cells),
+        out_(out),
+        partial_(partial) {}
 
   void points();
   void lines();
@@ -43,12 +51,14 @@ class Carrier {
  private:
   std::array<std::size_t, 2> plane_of(HalfFaceId h) const;
   std::array<Fixed3, 3> corners_of(HalfFaceId h) const;
-  std::int64_t slot(TetId t, const Lattice3& cube, octahedral::Label outward) const;
+  std::vector<HalfFaceId> behind(HalfFaceId h) const;
+  std::int64_t slot(TetId t, const Lattice3& cube, octahedral::Label outward) const {
+    return side_of_cube(cells_, t, cube, outward);
+  }
   template <class Body>
   void for_each_square(HalfFaceId h, const Body& body) const;
-  std::array<int, 4> slot_vertices(std::int64_t slot) const;
   bool holds_centre(HalfFaceId h, std::size_t axis, const Lattice3& cube) const;
-  HexMesh::Line line_at(TetId t, std::size_t axis, const Lattice3& from, int colour) const;
+  std::optional<HexMesh::Line> line_at(TetId t, std::size_t axis, const Lattice3& from, int colour) const;
   void edge_lines(const EdgeKey& edge, int colour);
   bool owns_midpoint(VertexId v, const EdgeKey& edge, int colour) const;
 
@@ -59,11 +69,13 @@ class Carrier {
   const LatticeVertices& vertices_;
   const Cells& cells_;
   HexMesh& out_;
+  bool partial_;
 };
 
 void Carrier::points() {
   for (const auto& [v, colour] : features_.points) {
     const std::int32_t vertex = vertices_.at_mesh_vertex[v.index()];
+    if (vertex < 0 && partial_) continue;
     if (vertex < 0)
       fail(fmt::format("Feature vertex {} is not on a lattice point of the integer-grid map.", v.value), {v.value},
            {mesh_.point(v)});
@@ -71,9 +83,24 @@ void Carrier::points() {
   }
 }
 
-std::array<Fixed3, 3> Carrier::corners_of(HalfFaceId h) const {
-  const auto& v = tet_face_vertices[static_cast<std::size_t>(h.local())];
-  return {map_.corner(h.tet(), v[0]), map_.corner(h.tet(), v[1]), map_.corner(h.tet(), v[2])};
+std::array<Fixed3, 3> Carrier::corners_of(HalfFaceId h) const { return corners_of_face(map_, h); }
+
+// What lies on the boundary where half-face h does: itself, or the faces behind it when its tet is flat.
+std::vector<HalfFaceId> Carrier::behind(HalfFaceId h) const {
+  if (!map_.is_flat(h.tet())) return {h};
+  std::vector<HalfFaceId> faces;
+  const std::size_t axis = plane_of(h)[0];
+  const auto area = [&](HalfFaceId face) {
+    const auto c = corners_of(face);
+    return exact_cross(minus(c[1], c[0]), minus(c[2], c[0]))[axis];
+  };
+  if (area(h) == 0) return faces;  // all of the boundary is behind another face
+  for (int i = 0; i < 4; ++i) {
+    const HalfFaceId inner(h.tet(), i);
+    const HalfFaceId o = mesh_.opposite_half_face(inner);
+    if (o.valid() && !map_.is_flat(o.tet()) && area(inner) != 0) faces.push_back(o);
+  }
+  return faces;
 }
 
 // The axis normal to an aligned face, and whether its tet lies above it.
@@ -88,13 +115,6 @@ std::array<std::size_t, 2> Carrier::plane_of(HalfFaceId h) const {
        {h.tet().value}, {mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2])});
 }
 
-std::int64_t Carrier::slot(TetId t, const Lattice3& cube, octahedral::Label outward) const {
-  const std::int64_t piece = cells_.pieces.item(t, cube);
-  require(piece >= 0, "A cube beside a lattice triangle is not met by its tet.");
-  const auto p = static_cast<std::size_t>(piece);
-  return 6 * static_cast<std::int64_t>(cells_.cell[p]) + octahedral::image(cells_.to_cell[p], outward);
-}
-
 // body(cube, slot) for every unit square of the aligned face that the triangle overlaps.
 template <class Body>
 void Carrier::for_each_square(HalfFaceId h, const Body& body) const {
@@ -104,19 +124,6 @@ void Carrier::for_each_square(HalfFaceId h, const Body& body) const {
       .for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t begin, std::int32_t end) {
         for (std::int32_t x = begin; x < end; ++x) body(Lattice3{x, y, z}, slot(h.tet(), {x, y, z}, outward));
       });
-}
-
-// Counter-clockwise seen from outside the hex.
-std::array<int, 4> Carrier::slot_vertices(std::int64_t slot) const {
-  const auto& corners = cells_.corners[static_cast<std::size_t>(slot / 6)];
-  const auto label = static_cast<unsigned>(slot % 6);
-  const unsigned axis = label / 2;
-  const unsigned u = 1U << (axis + 1) % 3;
-  const unsigned v = 1U << (axis + 2) % 3;
-  const unsigned base = (label & 1U) != 0 ? 0 : 1U << axis;
-  std::array<int, 4> quad{corners[base], corners[base + u], corners[base + u + v], corners[base + v]};
-  if ((label & 1U) != 0) std::swap(quad[1], quad[3]);
-  return quad;
 }
 
 // Whether the closed triangle has the centre of the cube's side in its plane.
@@ -140,11 +147,18 @@ void Carrier::quads() {
   std::vector<std::pair<HalfFaceId, int>> faces;
   for (const auto& [key, colour] : features_.faces) {
     const HalfFaceId h = find_face(mesh_, star_, key);
+    if (!h.valid() && partial_) continue;
     if (!h.valid())
       fail(fmt::format("The feature triangle ({}, {}, {}) is not a face of the mesh.", key[0].value, key[1].value,
                        key[2].value),
            {key[0].value, key[1].value, key[2].value}, {mesh_.point(key[0])});
-    faces.emplace_back(h, colour);
+    const HalfFaceId o = mesh_.opposite_half_face(h);
+    if (map_.is_flat(h.tet()) && o.valid() && !map_.is_flat(o.tet()))
+      faces.emplace_back(o, colour);
+    else if (!o.valid() && map_.is_flat(h.tet()))
+      for (HalfFaceId face : behind(h)) faces.emplace_back(face, colour);
+    else
+      faces.emplace_back(h, colour);
   }
   std::vector<std::vector<Side>> parts((faces.size() + grain - 1) / grain);
   parallel_for(faces.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -153,7 +167,7 @@ void Carrier::quads() {
       const HalfFaceId o = mesh_.opposite_half_face(h);
       const auto [axis, above] = plane_of(h);
       for_each_square(h, [&, axis = axis, above = above](const Lattice3& beside, std::int64_t here) {
-        if (o.valid()) {
+        if (o.valid() && !map_.is_flat(o.tet())) {
           Lattice3 cube = beside;
           cube[axis] += above != 0 ? -1 : 1;
           const LatticeTransition& transition = map_.transition(h);
@@ -171,28 +185,14 @@ void Carrier::quads() {
     return std::tie(a.slot, a.border, a.colour) < std::tie(b.slot, b.border, b.colour);
   });
   for (std::size_t k = 0; k < sides.size(); ++k)
-    if (k == 0 || sides[k].slot != sides[k - 1].slot)
-      out_.feature_quads.push_back({slot_vertices(sides[k].slot), sides[k].colour});
+    if (sides[k].slot != no_side && (k == 0 || sides[k].slot != sides[k - 1].slot))
+      out_.feature_quads.push_back({side_vertices(cells_, sides[k].slot), sides[k].colour});
 }
 
-// The hex edge from lattice point `from` along +axis, found through any piece of tet t that touches it.
-HexMesh::Line Carrier::line_at(TetId t, std::size_t axis, const Lattice3& from, int colour) const {
-  for (unsigned quadrant = 0; quadrant < 4; ++quadrant) {
-    Lattice3 cube = from;
-    std::uint8_t low = 0;
-    for (unsigned k = 0; k < 2; ++k)
-      if ((quadrant >> k & 1U) != 0) {
-        const std::size_t a = (axis + 1 + k) % 3;
-        --cube[a];
-        low = static_cast<std::uint8_t>(low | 1U << a);
-      }
-    const std::int64_t piece = cells_.pieces.item(t, cube);
-    if (piece < 0) continue;
-    const auto p = static_cast<std::size_t>(piece);
-    const auto& corners = cells_.corners[static_cast<std::size_t>(cells_.cell[p])];
-    const auto high = static_cast<std::uint8_t>(low | 1U << axis);
-    return {{corners[rotate_corner(cells_.to_cell[p], low)], corners[rotate_corner(cells_.to_cell[p], high)]}, colour};
-  }
+// The hex edge from lattice point `from` along +axis.
+std::optional<HexMesh::Line> Carrier::line_at(TetId t, std::size_t axis, const Lattice3& from, int colour) const {
+  if (const auto ends = edge_vertices(cells_, t, axis, from)) return HexMesh::Line{*ends, colour};
+  if (partial_) return std::nullopt;
   fail(fmt::format("Tet {}: no hex at its feature edge.", t.value), {t.value}, {centroid(mesh_, t)});
 }
 
@@ -211,7 +211,8 @@ bool Carrier::owns_midpoint(VertexId v, const EdgeKey& edge, int colour) const {
 
 void Carrier::edge_lines(const EdgeKey& edge, int colour) {
   const TetId* t = star_.begin(edge[0]);
-  while (t != star_.end(edge[0]) && !mesh_.has_vertex(*t, edge[1])) ++t;
+  while (t != star_.end(edge[0]) && (!mesh_.has_vertex(*t, edge[1]) || map_.is_flat(*t))) ++t;
+  if (t == star_.end(edge[0]) && partial_) return;
   if (t == star_.end(edge[0]))
     fail(fmt::format("The feature line ({}, {}) is not an edge of the mesh.", edge[0].value, edge[1].value),
          {edge[0].value, edge[1].value}, {mesh_.point(edge[0]), mesh_.point(edge[1])});
@@ -242,7 +243,7 @@ void Carrier::edge_lines(const EdgeKey& edge, int colour) {
     if (middle == low && !owns_midpoint(up ? edge[0] : edge[1], edge, colour)) continue;
     if (middle == high && !owns_midpoint(up ? edge[1] : edge[0], edge, colour)) continue;
     from[axis] = static_cast<std::int32_t>(x);
-    out_.feature_lines.push_back(line_at(*t, axis, from, colour));
+    if (const auto line = line_at(*t, axis, from, colour)) out_.feature_lines.push_back(*line);
   }
 }
 
@@ -263,11 +264,13 @@ void Carrier::boundary() {
     for (std::size_t k = 4 * begin; k < 4 * end; ++k) {
       const HalfFaceId h(static_cast<std::int64_t>(k));
       if (!mesh_.is_boundary(h)) continue;
-      const std::size_t axis = plane_of(h)[0];
-      const auto c = corners_of(h);
-      const Wide area2 = exact_cross(minus(c[1], c[0]), minus(c[2], c[0]))[axis];
-      part.area2 += area2 < 0 ? -area2 : area2;
-      for_each_square(h, [&](const Lattice3&, std::int64_t slot) { part.slots.push_back(slot); });
+      for (HalfFaceId face : behind(h)) {
+        const std::size_t axis = plane_of(face)[0];
+        const auto c = corners_of(face);
+        const Wide area2 = exact_cross(minus(c[1], c[0]), minus(c[2], c[0]))[axis];
+        part.area2 += area2 < 0 ? -area2 : area2;
+        for_each_square(face, [&](const Lattice3&, std::int64_t slot) { part.slots.push_back(slot); });
+      }
     }
   });
   std::vector<std::int64_t> slots;
@@ -286,9 +289,9 @@ void Carrier::boundary() {
 }  // namespace
 
 void carry_features(const TetMesh& mesh, const Features& features, const FixedMap& map, const VertexTets& star,
-                    const LatticeVertices& vertices, const Cells& cells, HexMesh& out) {
-  Carrier carrier(mesh, features, map, star, vertices, cells, out);
-  carrier.boundary();
+                    const LatticeVertices& vertices, const Cells& cells, HexMesh& out, bool partial) {
+  Carrier carrier(mesh, features, map, star, vertices, cells, out, partial);
+  if (!partial) carrier.boundary();
   carrier.points();
   carrier.lines();
   carrier.quads();

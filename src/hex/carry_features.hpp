@@ -10,7 +10,8 @@ namespace hexfield::hex {
 /// never by its vertices, so that coarse meshes with several edges or faces between the same vertices come
 /// out right. Also asserts that the boundary of the map is covered by hex sides exactly once.
 /// Throws Error(bad_hex_mesh) naming the feature or boundary simplex that is not on the lattice.
+/// `partial`: features on tets or hexes that are missing are left out, and nothing is asserted.
 void carry_features(const TetMesh& mesh, const Features& features, const FixedMap& map, const VertexTets& star,
-                    const LatticeVertices& vertices, const Cells& cells, HexMesh& out);
+                    const LatticeVertices& vertices, const Cells& cells, HexMesh& out, bool partial = false);
 
 }  // namespace hexfield::hex

@@ -99,19 +99,49 @@ std::vector<std::vector<Link>> find_links(const TetMesh& mesh, const FixedMap& m
   return links;
 }
 
-void number_cells(const TetMesh& mesh, const FixedMap& map, Cells& cells) {
+// Pieces at open faces.
+std::vector<char> open_pieces(const TetMesh& mesh, const FixedMap& map, const RowTable& pieces,
+                              const std::vector<char>* open) {
+  std::vector<char> touched(open == nullptr ? 0 : static_cast<std::size_t>(pieces.size), 0);
+  if (open == nullptr) return touched;
+  for (std::size_t i = 0; i < 4 * mesh.num_tets(); ++i) {
+    if ((*open)[i] == 0) continue;
+    const HalfFaceId h{static_cast<std::int64_t>(i)};
+    cubes_of_triangle(map, corners_of_face(map, h))
+        .for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t first, std::int32_t last) {
+          for (std::int32_t x = first; x < last; ++x) {
+            const std::int64_t piece = pieces.item(h.tet(), {x, y, z});
+            if (piece >= 0) touched[static_cast<std::size_t>(piece)] = 1;
+          }
+        });
+  }
+  return touched;
+}
+
+void number_cells(const TetMesh& mesh, const FixedMap& map, const std::vector<char>* open, Cells& cells) {
   const auto n = static_cast<std::size_t>(cells.pieces.size);
+  std::vector<char> touched = open_pieces(mesh, map, cells.pieces, open);
   Pieces pieces(n);
   for (const auto& part : find_links(mesh, map, cells.pieces))
     for (const Link& link : part) {
       require(link.from >= 0 && link.to >= 0, "A cube met by a face of a tet is not met by the tet.");
-      if (!pieces.join(link))
+      if (pieces.join(link)) continue;
+      if (open != nullptr)
+        touched[static_cast<std::size_t>(link.from)] = 1;
+      else
         fail(mesh, cells.tet(static_cast<std::size_t>(link.from)), "a cube of the integer-grid map turns into itself.");
     }
   cells.cell.resize(n);
   cells.to_cell.resize(n);
+  octahedral::Rotation unused = 0;
+  for (std::size_t p = 0; p < touched.size(); ++p)
+    if (touched[p] != 0) touched[static_cast<std::size_t>(pieces.find(static_cast<std::int32_t>(p), unused))] = 1;
   for (std::size_t p = 0; p < n; ++p) {
     const std::int32_t root = pieces.find(static_cast<std::int32_t>(p), cells.to_cell[p]);
+    if (!touched.empty() && touched[static_cast<std::size_t>(root)] != 0) {
+      cells.cell[p] = -1;
+      continue;
+    }
     if (static_cast<std::size_t>(root) == p) {
       cells.cell[p] = static_cast<std::int32_t>(cells.root.size());
       cells.root.push_back(root);
@@ -124,12 +154,13 @@ void number_cells(const TetMesh& mesh, const FixedMap& map, Cells& cells) {
 // The pieces of each hex, ascending.
 std::vector<std::int32_t> group_pieces(const Cells& cells, std::vector<std::size_t>& first) {
   first.assign(cells.root.size() + 1, 0);
-  for (std::int32_t c : cells.cell) ++first[static_cast<std::size_t>(c) + 1];
+  for (std::int32_t c : cells.cell)
+    if (c >= 0) ++first[static_cast<std::size_t>(c) + 1];
   for (std::size_t c = 0; c < cells.root.size(); ++c) first[c + 1] += first[c];
   std::vector<std::int32_t> members(cells.cell.size());
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   for (std::size_t p = 0; p < cells.cell.size(); ++p)
-    members[next[static_cast<std::size_t>(cells.cell[p])]++] = static_cast<std::int32_t>(p);
+    if (cells.cell[p] >= 0) members[next[static_cast<std::size_t>(cells.cell[p])]++] = static_cast<std::int32_t>(p);
   return members;
 }
 
@@ -163,7 +194,22 @@ bool add_corners(const Cells& cells, const LatticeVertices& vertices, std::size_
   return good;
 }
 
-void find_corners(const TetMesh& mesh, const LatticeVertices& vertices, Cells& cells) {
+void drop_cells(const std::vector<char>& bad, Cells& cells) {
+  std::vector<std::int32_t> number(bad.size(), -1);
+  std::int32_t kept = 0;
+  for (std::size_t c = 0; c < bad.size(); ++c) {
+    if (bad[c] != 0) continue;
+    cells.root[static_cast<std::size_t>(kept)] = cells.root[c];
+    cells.corners[static_cast<std::size_t>(kept)] = cells.corners[c];
+    number[c] = kept++;
+  }
+  cells.root.resize(static_cast<std::size_t>(kept));
+  cells.corners.resize(static_cast<std::size_t>(kept));
+  for (std::int32_t& c : cells.cell)
+    if (c >= 0) c = number[static_cast<std::size_t>(c)];
+}
+
+void find_corners(const TetMesh& mesh, const LatticeVertices& vertices, bool tolerant, Cells& cells) {
   std::vector<std::size_t> first;
   const std::vector<std::int32_t> members = group_pieces(cells, first);
   cells.corners.assign(cells.root.size(), {-1, -1, -1, -1, -1, -1, -1, -1});
@@ -178,6 +224,7 @@ void find_corners(const TetMesh& mesh, const LatticeVertices& vertices, Cells& c
       bad[c] = !good;
     }
   });
+  if (tolerant) return drop_cells(bad, cells);
   for (std::size_t c = 0; c < bad.size(); ++c)
     if (bad[c] != 0) {
       const auto piece = static_cast<std::size_t>(cells.root[c]);
@@ -204,7 +251,49 @@ std::uint8_t rotate_corner(octahedral::Rotation r, std::uint8_t bits) {
   return table[r][bits];
 }
 
-Cells find_cells(const TetMesh& mesh, const FixedMap& map, const LatticeVertices& vertices) {
+std::optional<std::array<int, 2>> edge_vertices(const Cells& cells, TetId t, std::size_t axis, const Lattice3& from) {
+  for (unsigned quadrant = 0; quadrant < 4; ++quadrant) {
+    Lattice3 cube = from;
+    std::uint8_t low = 0;
+    for (unsigned k = 0; k < 2; ++k)
+      if ((quadrant >> k & 1U) != 0) {
+        const std::size_t a = (axis + 1 + k) % 3;
+        --cube[a];
+        low = static_cast<std::uint8_t>(low | 1U << a);
+      }
+    const std::int64_t piece = cells.pieces.item(t, cube);
+    if (piece < 0 || cells.cell[static_cast<std::size_t>(piece)] < 0) continue;
+    const auto p = static_cast<std::size_t>(piece);
+    const auto& corners = cells.corners[static_cast<std::size_t>(cells.cell[p])];
+    const auto high = static_cast<std::uint8_t>(low | 1U << axis);
+    return std::array<int, 2>{corners[rotate_corner(cells.to_cell[p], low)],
+                              corners[rotate_corner(cells.to_cell[p], high)]};
+  }
+  return std::nullopt;
+}
+
+std::int64_t side_of_cube(const Cells& cells, TetId t, const Lattice3& cube, octahedral::Label outward) {
+  const std::int64_t piece = cells.pieces.item(t, cube);
+  require(piece >= 0, "A cube beside a lattice triangle is not met by its tet.");
+  const auto p = static_cast<std::size_t>(piece);
+  if (cells.cell[p] < 0) return no_side;
+  return 6 * static_cast<std::int64_t>(cells.cell[p]) + octahedral::image(cells.to_cell[p], outward);
+}
+
+std::array<int, 4> side_vertices(const Cells& cells, std::int64_t side) {
+  const auto& corners = cells.corners[static_cast<std::size_t>(side / 6)];
+  const auto label = static_cast<unsigned>(side % 6);
+  const unsigned axis = label / 2;
+  const unsigned u = 1U << (axis + 1) % 3;
+  const unsigned v = 1U << (axis + 2) % 3;
+  const unsigned base = (label & 1U) != 0 ? 0 : 1U << axis;
+  std::array<int, 4> quad{corners[base], corners[base + u], corners[base + u + v], corners[base + v]};
+  if ((label & 1U) != 0) std::swap(quad[1], quad[3]);
+  return quad;
+}
+
+Cells find_cells(const TetMesh& mesh, const FixedMap& map, const LatticeVertices& vertices,
+                 const std::vector<char>* open) {
   Cells cells;
   cells.pieces = rasterise_cubes(map);
   if (cells.pieces.size > std::numeric_limits<std::int32_t>::max())
@@ -217,8 +306,8 @@ Cells find_cells(const TetMesh& mesh, const FixedMap& map, const LatticeVertices
       for (std::int64_t i = 0; i < rows[r].end - rows[r].begin; ++i)
         cells.piece_row[static_cast<std::size_t>(rows[r].first + i)] = static_cast<std::int32_t>(r);
   });
-  number_cells(mesh, map, cells);
-  find_corners(mesh, vertices, cells);
+  number_cells(mesh, map, open, cells);
+  find_corners(mesh, vertices, open != nullptr, cells);
   return cells;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "lattice_vertices.hpp"
@@ -16,7 +18,7 @@ inline constexpr std::array<std::uint8_t, 8> vtk_corner_bits = {0, 1, 3, 2, 4, 5
 struct Cells {
   RowTable pieces;
   std::vector<std::int32_t> piece_row;               ///< row of `pieces.rows` per piece
-  std::vector<std::int32_t> cell;                    ///< hex per piece
+  std::vector<std::int32_t> cell;                    ///< hex per piece; -1: of none (see find_cells)
   std::vector<octahedral::Rotation> to_cell;         ///< rotation from the piece's chart to that of its hex
   std::vector<std::int32_t> root;                    ///< lowest piece per hex; its chart is the chart of the hex
   std::vector<std::array<std::int32_t, 8>> corners;  ///< hex vertex per hex and corner bits (x + 2 y + 4 z)
@@ -31,7 +33,21 @@ struct Cells {
 /// Corner bits of a cube after its rotation about its centre.
 std::uint8_t rotate_corner(octahedral::Rotation r, std::uint8_t bits);
 
-/// Throws Error(bad_hex_mesh) naming tets where the map does not make whole hexes.
-Cells find_cells(const TetMesh& mesh, const FixedMap& map, const LatticeVertices& vertices);
+/// The ends of the hex edge that runs from lattice point `from` of tet t's chart along +axis, found through any piece
+/// of the tet that touches it; nullopt when there is none that belongs to a hex.
+std::optional<std::array<int, 2>> edge_vertices(const Cells& cells, TetId t, std::size_t axis, const Lattice3& from);
+
+/// A side of a hex: 6 * hex + outward label in the chart of the hex.
+inline constexpr std::int64_t no_side = std::numeric_limits<std::int64_t>::max();
+/// The side of the cube of tet t's chart in a direction of that chart; no_side when the cube is no hex.
+std::int64_t side_of_cube(const Cells& cells, TetId t, const Lattice3& cube, octahedral::Label outward);
+/// Counter-clockwise seen from outside the hex.
+std::array<int, 4> side_vertices(const Cells& cells, std::int64_t side);
+
+/// Throws Error(bad_hex_mesh) naming tets where the map does not make whole hexes. With `open` (per half-face:
+/// another tet belongs there, but is missing) cubes that meet an open face, turn into themselves or lack a corner are
+/// no hexes instead; their pieces have cell -1.
+Cells find_cells(const TetMesh& mesh, const FixedMap& map, const LatticeVertices& vertices,
+                 const std::vector<char>* open = nullptr);
 
 }  // namespace hexfield::hex

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "assemble.hpp"
 #include "carry_features.hpp"
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/hex/sanitise.hpp"
@@ -43,29 +44,33 @@ void check_volume(const hex::FixedMap& map, std::size_t hexes) {
 
 }  // namespace
 
-HexMesh extract_hex_mesh(const TetMesh& mesh, const Features& features, const IntegerGridMap& map) {
-  const SanitisedMap exact = sanitise_igm(mesh, features, map);
-  if (!exact.violations.empty()) refuse(exact.violations);
-  const hex::FixedMap fixed = hex::fixed_map(mesh, exact.map);
-  const hex::VertexTets star = hex::vertex_tets(mesh);
-  hex::LatticeVertices vertices = hex::find_vertices(mesh, fixed, star);
-  const hex::Cells cells = hex::find_cells(mesh, fixed, vertices);
+HexMesh hex::assemble(const TetMesh& mesh, const Features& features, const FixedMap& fixed,
+                      const std::vector<char>* open) {
+  const VertexTets star = vertex_tets(mesh);
+  LatticeVertices vertices = find_vertices(mesh, fixed, star);
+  const Cells cells = find_cells(mesh, fixed, vertices, open);
   const std::size_t n = cells.root.size();
-  check_volume(fixed, n);
+  if (open == nullptr) check_volume(fixed, n);
   HexMesh out;
   out.points = std::move(vertices.places);
   out.hexes.resize(n);
   if (!features.tet_colours.empty()) out.hex_colours.resize(n);
   parallel_for(n, 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
-      for (std::size_t k = 0; k < 8; ++k) out.hexes[c][k] = cells.corners[c][hex::vtk_corner_bits[k]];
+      for (std::size_t k = 0; k < 8; ++k) out.hexes[c][k] = cells.corners[c][vtk_corner_bits[k]];
       if (!features.tet_colours.empty())
         out.hex_colours[c] = features.tet_colours[cells.tet(static_cast<std::size_t>(cells.root[c])).index()];
     }
   });
   out.names = features.names;
-  hex::carry_features(mesh, features, fixed, star, vertices, cells, out);
+  carry_features(mesh, features, fixed, star, vertices, cells, out, open != nullptr);
   return out;
+}
+
+HexMesh extract_hex_mesh(const TetMesh& mesh, const Features& features, const IntegerGridMap& map) {
+  const SanitisedMap exact = sanitise_igm(mesh, features, map);
+  if (!exact.violations.empty()) refuse(exact.violations);
+  return hex::assemble(mesh, features, hex::fixed_map(mesh, exact.map), nullptr);
 }
 
 }  // namespace hexfield

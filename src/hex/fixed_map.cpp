@@ -51,7 +51,7 @@ int fixed_shift(double largest) {
   return 52 - exponent;
 }
 
-FixedMap fixed_map(const TetMesh& mesh, const IntegerGridMap& map) {
+FixedMap fixed_map(const TetMesh& mesh, const IntegerGridMap& map, std::vector<char>* tell) {
   const std::size_t n = mesh.num_tets();
   double largest = 0;
   for (const auto& corners : map.uvw)
@@ -66,6 +66,10 @@ FixedMap fixed_map(const TetMesh& mesh, const IntegerGridMap& map) {
   parallel_for(n, 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) wrong[t] = !fix_tet(mesh, map, TetId(t), fixed);
   });
+  if (tell != nullptr) {
+    *tell = std::move(wrong);
+    return fixed;
+  }
   for (std::size_t t = 0; t < n; ++t)
     if (wrong[t] != 0)
       throw Error(ExitCode::bad_hex_mesh,

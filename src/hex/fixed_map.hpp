@@ -45,8 +45,10 @@ struct FixedMap {
   int shift = 0;  ///< coordinates are multiples of 2^-shift
   std::vector<std::array<Fixed3, 4>> corners;
   std::vector<std::array<LatticeTransition, 4>> transitions;  ///< out of tet t across its face i
+  std::vector<char> flat = {};                                ///< per tet: of no volume; empty: none is
 
   std::int64_t one() const { return std::int64_t{1} << shift; }
+  bool is_flat(TetId t) const { return !flat.empty() && flat[t.index()] != 0; }
   const Fixed3& corner(TetId t, int i) const { return corners[t.index()][static_cast<std::size_t>(i)]; }
   const LatticeTransition& transition(HalfFaceId h) const {
     return transitions[h.tet().index()][static_cast<std::size_t>(h.local())];
@@ -58,8 +60,8 @@ struct FixedMap {
 int fixed_shift(double largest);
 
 /// Exact when every coordinate is a multiple of 2^-shift and every transition is integer, as sanitise_igm()
-/// leaves them; throws Error(bad_hex_mesh) otherwise.
-FixedMap fixed_map(const TetMesh& mesh, const IntegerGridMap& map);
+/// leaves them; throws Error(bad_hex_mesh) otherwise, or tells the tets that are not in `wrong`.
+FixedMap fixed_map(const TetMesh& mesh, const IntegerGridMap& map, std::vector<char>* wrong = nullptr);
 
 /// The tets at each vertex, ascending.
 struct VertexTets {

@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "hexfield/base/parallel.hpp"
 
@@ -41,7 +43,7 @@ Sight lowest_around_edge(const TetMesh& mesh, const FixedMap& map, const Sight& 
       if (!o.valid()) break;
       at = {o.tet(), map.transition(h).point(at.place)};
       if (at.tet == from.tet) return lowest;
-      if (at.tet < lowest.tet) lowest = at;
+      if (at.tet < lowest.tet && !map.is_flat(at.tet)) lowest = at;
       const auto w = wings(mesh, at.tet, a, b);
       out = w[0] == o.local() ? w[1] : w[0];
     }
@@ -60,6 +62,7 @@ class VertexFinder {
     out_.at_mesh_vertex.assign(mesh_.num_vertices(), -1);
     number_owned();
     copy_to_others();
+    if (!map_.flat.empty()) unite_at_flat_tets();
     return std::move(out_);
   }
 
@@ -72,9 +75,11 @@ class VertexFinder {
   void for_each_item(const Body& body) const {
     const auto& rows = out_.points.rows;
     parallel_for(rows.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t r = begin; r < end; ++r)
+      for (std::size_t r = begin; r < end; ++r) {
+        if (map_.is_flat(rows[r].tet)) continue;
         for (std::int32_t x = rows[r].begin; x < rows[r].end; ++x)
           body(rows[r], x, static_cast<std::size_t>(rows[r].first + (x - rows[r].begin)));
+      }
     });
   }
   std::array<VertexId, 2> carrier_edge(TetId t, std::uint8_t faces) const {
@@ -96,16 +101,21 @@ class VertexFinder {
     }
     const HalfFaceId h(from.tet, std::countr_zero(faces));
     const HalfFaceId o = mesh_.opposite_half_face(h);
-    if (!o.valid() || from.tet < o.tet()) return from;
+    if (!o.valid() || from.tet < o.tet() || map_.is_flat(o.tet())) return from;
     return {o.tet(), map_.transition(h).point(from.place)};
   }
   bool owned(const Row& row, std::int32_t x, std::uint8_t faces) const {
-    if (std::popcount(faces) == 3) return *star_.begin(carrier_vertex(row.tet, faces)) == row.tet;
+    if (std::popcount(faces) == 3) {
+      const VertexId v = carrier_vertex(row.tet, faces);
+      return *std::find_if(star_.begin(v), star_.end(v), [&](TetId t) { return !map_.is_flat(t); }) == row.tet;
+    }
     return owner({row.tet, {x, row.y, row.z}}, faces).tet == row.tet;
   }
   Vec3 place(const Row& row, std::int32_t x, std::uint8_t faces) const;
   void number_owned();
   void copy_to_others();
+  void unite_at_flat_tets();
+  void renumber(const std::vector<std::int32_t>& lowest);
 
   const TetMesh& mesh_;
   const FixedMap& map_;
@@ -180,13 +190,74 @@ void VertexFinder::copy_to_others() {
   });
   out_.ids = std::move(ids);
   const auto& rows = out_.points.rows;
-  for (const Row& row : rows)
+  for (const Row& row : rows) {
+    if (map_.is_flat(row.tet)) continue;
     for (std::int32_t x = row.begin; x < row.end; ++x)
       if (out_.ids[static_cast<std::size_t>(row.first + (x - row.begin))] < 0)
         throw Error(ExitCode::bad_hex_mesh,
                     fmt::format("Tet {}: lattice point ({}, {}, {}) of its chart is not one point around its carrier.",
                                 row.tet.value, x, row.y, row.z),
                     {row.tet.value}, {centroid(mesh_, row.tet)});
+  }
+}
+
+// The tets on the two sides of a flat tet touch each other, though no two of their faces or edges need to be the same:
+// a lattice point in it is one vertex, whatever it is called on each side.
+void VertexFinder::unite_at_flat_tets() {
+  std::vector<std::int32_t> parent(out_.places.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const Row& row : out_.points.rows) {
+    if (!map_.is_flat(row.tet)) continue;
+    for (std::int64_t i = row.first; i < row.first + (row.end - row.begin); ++i) {
+      out_.ids[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(parent.size());
+      parent.push_back(static_cast<std::int32_t>(parent.size()));
+    }
+  }
+  const auto find = [&](std::int32_t i) {
+    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
+    return i;
+  };
+  for (std::size_t t = 0; t < mesh_.num_tets(); ++t) {
+    if (!map_.is_flat(TetId(t))) continue;
+    for (int f = 0; f < 4; ++f) {
+      const HalfFaceId h(TetId(t), f);
+      const HalfFaceId o = mesh_.opposite_half_face(h);
+      if (!o.valid()) continue;
+      points_of_triangle(map_, corners_of_face(map_, h))
+          .for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t begin, std::int32_t end) {
+            for (std::int32_t x = begin; x < end; ++x) {
+              const std::int64_t here = out_.points.item(TetId(t), {x, y, z});
+              const std::int64_t there = out_.points.item(o.tet(), map_.transition(h).point({x, y, z}));
+              require(here >= 0 && there >= 0, "A lattice point of a face is in only one of its tets.");
+              const std::int32_t a = find(out_.ids[static_cast<std::size_t>(here)]);
+              const std::int32_t b = find(out_.ids[static_cast<std::size_t>(there)]);
+              parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+            }
+          });
+    }
+  }
+  std::vector<std::int32_t> lowest(parent.size());
+  for (std::size_t i = 0; i < parent.size(); ++i) lowest[i] = find(static_cast<std::int32_t>(i));
+  renumber(lowest);
+}
+
+// Gives all ids of one lowest id one new number, in the order of the lowest.
+void VertexFinder::renumber(const std::vector<std::int32_t>& lowest) {
+  std::vector<std::int32_t> number(lowest.size(), -1);
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < lowest.size(); ++i) {
+    const auto root = static_cast<std::size_t>(lowest[i]);
+    if (root == i) {
+      // A point of flat tets alone has no place of its own; nothing uses it.
+      number[i] = static_cast<std::int32_t>(places.size());
+      places.push_back(i < out_.places.size() ? out_.places[i] : Vec3::Zero());
+    }
+    number[i] = number[root];
+  }
+  for (auto* ids : {&out_.ids, &out_.at_mesh_vertex})
+    for (std::int32_t& id : *ids)
+      if (id >= 0) id = number[static_cast<std::size_t>(id)];
+  out_.places = std::move(places);
 }
 
 }  // namespace

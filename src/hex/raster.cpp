@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/mesh/tet_mesh.hpp"
@@ -58,23 +59,30 @@ void add_silhouette(const Corners& corners, std::size_t axis, ConvexItems& items
     }
 }
 
-std::array<HalfSpace, 4> inner_half_spaces(const std::array<Fixed3, 4>& c) {
-  std::array<HalfSpace, 4> faces;
-  for (std::size_t f = 0; f < 4; ++f) {
-    const auto& v = tet_face_vertices[f];
-    const Fixed3& a = c[static_cast<std::size_t>(v[0])];
-    const auto ab = minus(c[static_cast<std::size_t>(v[1])], a);
-    const auto ac = minus(c[static_cast<std::size_t>(v[2])], a);
-    faces[f] = HalfSpace(exact_cross(ac, ab), a);
-  }
-  return faces;
-}
-
 ConvexItems start(const FixedMap& map, ConvexItems::Kind kind) {
   ConvexItems items;
   items.kind = kind;
   items.one = map.one();
   return items;
+}
+
+// The rows of all four faces of a flat tet; a row meets a convex polygon in one stretch.
+template <class ItemsOfTriangle>
+void add_flat_rows(const FixedMap& map, TetId t, const ItemsOfTriangle& items_of, std::vector<Row>& rows) {
+  std::vector<Row> parts;
+  for (int i = 0; i < 4; ++i)
+    items_of(corners_of_face(map, HalfFaceId(t, i)))
+        .for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t begin, std::int32_t end) {
+          parts.push_back({y, z, begin, end, t});
+        });
+  std::sort(parts.begin(), parts.end(),
+            [](const Row& a, const Row& b) { return std::tie(a.z, a.y, a.begin) < std::tie(b.z, b.y, b.begin); });
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k == 0 || parts[k].y != parts[k - 1].y || parts[k].z != parts[k - 1].z)
+      rows.push_back(parts[k]);
+    else
+      rows.back().end = std::max(rows.back().end, parts[k].end);
+  }
 }
 
 template <class Fill>
@@ -104,6 +112,18 @@ RowTable rasterise(const FixedMap& map, const Fill& fill) {
 }
 
 }  // namespace
+
+std::array<HalfSpace, 4> inner_half_spaces(const std::array<Fixed3, 4>& c) {
+  std::array<HalfSpace, 4> faces;
+  for (std::size_t f = 0; f < 4; ++f) {
+    const auto& v = tet_face_vertices[f];
+    const Fixed3& a = c[static_cast<std::size_t>(v[0])];
+    const auto ab = minus(c[static_cast<std::size_t>(v[1])], a);
+    const auto ac = minus(c[static_cast<std::size_t>(v[2])], a);
+    faces[f] = HalfSpace(exact_cross(ac, ab), a);
+  }
+  return faces;
+}
 
 const Row* RowTable::find(TetId t, std::int32_t y, std::int32_t z) const {
   const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(tet_rows[t.index()]);
@@ -194,6 +214,23 @@ ConvexItems points_of_tet(const FixedMap& map, TetId t) {
   return items;
 }
 
+ConvexItems points_of_triangle(const FixedMap& map, const std::array<Fixed3, 3>& corners) {
+  ConvexItems items = start(map, ConvexItems::Kind::points);
+  bound(corners, items);
+  for (std::size_t a = 0; a < 3; ++a)
+    if (items.low[a] > items.high[a]) return items;
+  const HalfSpace plane(exact_cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])), corners[0]);
+  items.add(plane);
+  items.add(plane.flipped());
+  for (std::size_t axis = 0; axis < 3; ++axis) add_silhouette(corners, axis, items);
+  return items;
+}
+
+std::array<Fixed3, 3> corners_of_face(const FixedMap& map, HalfFaceId h) {
+  const auto& v = tet_face_vertices[static_cast<std::size_t>(h.local())];
+  return {map.corner(h.tet(), v[0]), map.corner(h.tet(), v[1]), map.corner(h.tet(), v[2])};
+}
+
 ConvexItems cubes_beside_triangle(const FixedMap& map, const std::array<Fixed3, 3>& corners, std::size_t axis,
                                   bool above) {
   ConvexItems items = start(map, ConvexItems::Kind::cubes);
@@ -213,6 +250,9 @@ std::uint8_t carrier_mask(const ConvexItems& points, const Lattice3& x, std::int
 
 RowTable rasterise_cubes(const FixedMap& map) {
   return rasterise(map, [&](TetId t, std::vector<Row>& rows) {
+    if (map.is_flat(t))
+      return add_flat_rows(
+          map, t, [&](const auto& corners) { return cubes_of_triangle(map, corners); }, rows);
     cubes_of_tet(map, t).for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t begin, std::int32_t end) {
       rows.push_back({y, z, begin, end, t});
     });
@@ -221,6 +261,9 @@ RowTable rasterise_cubes(const FixedMap& map) {
 
 RowTable rasterise_points(const FixedMap& map) {
   return rasterise(map, [&](TetId t, std::vector<Row>& rows) {
+    if (map.is_flat(t))
+      return add_flat_rows(
+          map, t, [&](const auto& corners) { return points_of_triangle(map, corners); }, rows);
     const ConvexItems items = points_of_tet(map, t);
     if (items.count == 0) return;
     items.for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t begin, std::int32_t end) {

@@ -62,8 +62,13 @@ struct ConvexItems {
 ConvexItems cubes_of_tet(const FixedMap& map, TetId t);
 /// The unit cubes whose interior meets the triangle (corners in one chart).
 ConvexItems cubes_of_triangle(const FixedMap& map, const std::array<Fixed3, 3>& corners);
+/// Of the four faces of a positive tet, towards its inside.
+std::array<HalfSpace, 4> inner_half_spaces(const std::array<Fixed3, 4>& corners);
 /// The lattice points in the closed tet.
 ConvexItems points_of_tet(const FixedMap& map, TetId t);
+/// The lattice points in the closed triangle, which may be a segment or a point.
+ConvexItems points_of_triangle(const FixedMap& map, const std::array<Fixed3, 3>& corners);
+std::array<Fixed3, 3> corners_of_face(const FixedMap& map, HalfFaceId h);
 /// The unit cubes next to the triangle, which lies in the lattice plane x[axis] = plane: those on the `above`
 /// side whose face in that plane overlaps the triangle.
 ConvexItems cubes_beside_triangle(const FixedMap& map, const std::array<Fixed3, 3>& corners, std::size_t axis,
@@ -72,6 +77,7 @@ ConvexItems cubes_beside_triangle(const FixedMap& map, const std::array<Fixed3, 
 /// Faces of tet t that hold the lattice point x of the closed tet, as a bit mask.
 std::uint8_t carrier_mask(const ConvexItems& points, const Lattice3& x, std::int64_t one);
 
+/// Of a flat tet: the cubes and points of its four faces. Rows of points of flat tets have no masks.
 RowTable rasterise_cubes(const FixedMap& map);
 RowTable rasterise_points(const FixedMap& map);
 

@@ -9,6 +9,7 @@
 
 #include "fixed_map.hpp"
 #include "hexfield/base/parallel.hpp"
+#include "untangle_images.hpp"
 
 namespace hexfield {
 namespace {
@@ -40,17 +41,33 @@ double angle_at_edge(const std::array<Vec3, 4>& x, int i, int j) {
 // Everything the vertices share while they are made exact.
 class Sanitiser {
  public:
-  Sanitiser(const TetMesh& mesh, const Features& features, const IntegerGridMap& map, double tolerance)
-      : mesh_(mesh), features_(features), map_(map), tolerance_(tolerance), star_(hex::vertex_tets(mesh)) {}
+  /// Deviations above the tolerance are told, those above the limit are not followed.
+  Sanitiser(const TetMesh& mesh, const Features& features, const IntegerGridMap& map, double tolerance, double limit)
+      : mesh_(mesh),
+        features_(features),
+        map_(map),
+        tolerance_(tolerance),
+        limit_(limit),
+        star_(hex::vertex_tets(mesh)),
+        broken_(mesh.num_tets(), 0),
+        pinned_(mesh.num_vertices(), 0) {}
 
   SanitisedMap run();
+  HealedMap heal();
 
  private:
   struct Found {
     std::vector<Violation> violations;
     double largest_move = 0;
+    std::vector<TetId> broken;
   };
 
+  bool tolerant() const { return limit_ > tolerance_; }
+  bool read_coordinates();
+  void sanitise_vertices();
+  bool turns_around(TetId t, VertexId a, VertexId b) const;
+  Vec3 reference(VertexId v, std::size_t seed, const std::vector<std::size_t>& fan,
+                 const std::vector<LatticeTransition>& to_chart) const;
   const Vec3& uvw(TetId t, VertexId v) const {
     return map_.uvw[t.index()][static_cast<std::size_t>(mesh_.local_index(t, v))];
   }
@@ -65,13 +82,16 @@ class Sanitiser {
   std::optional<std::int32_t> lattice_value(double x, VertexId v, const char* what, Found& found) const;
   void add_edge_pins(VertexId v, const std::vector<std::size_t>& fan,
                      const std::function<void(std::size_t, const std::vector<Pin>&)>& apply, Found& found) const;
-  void check_positive(SanitisedMap& result) const;
+  void check_positive();
 
   const TetMesh& mesh_;
   const Features& features_;
   const IntegerGridMap& map_;
-  double tolerance_;
+  double tolerance_, limit_;
   hex::VertexTets star_;
+  std::vector<char> broken_;          // per tet: an alignment or transition that cannot be followed
+  std::vector<char> not_positive_;    // per tet, as the map was given
+  std::vector<std::uint8_t> pinned_;  // per vertex: mask of axes in the chart of its first tet
   int shift_ = 0;
   std::vector<std::array<LatticeTransition, 4>> transitions_;
   std::vector<std::array<Fixed3, 4>> corners_;
@@ -103,12 +123,14 @@ void Sanitiser::round_transitions() {
         }
       }
   });
-  for (std::size_t t = 0; t < mesh_.num_tets(); ++t)
+  for (std::size_t t = 0; t < mesh_.num_tets(); ++t) {
+    if (!(deviation[t] <= limit_)) broken_[t] = 1;
     if (!(deviation[t] <= tolerance_))
       result_.violations.push_back(
           {fmt::format("Tet {}: a transition is {:.3g} away from an integer one.", t, deviation[t]),
            {static_cast<std::int64_t>(t)},
            {centroid(mesh_, TetId(t))}});
+  }
 }
 
 // The tets of the fan of star member `seed`, with the transition from the seed's chart to each of theirs.
@@ -138,11 +160,14 @@ std::vector<std::size_t> Sanitiser::walk_fan(VertexId v, std::size_t seed, std::
 
 std::optional<std::int32_t> Sanitiser::lattice_value(double x, VertexId v, const char* what, Found& found) const {
   const double rounded = std::round(x);
+  const bool close = std::abs(x - rounded) <= limit_;
   if (std::abs(x - rounded) <= tolerance_) return static_cast<std::int32_t>(rounded);
   found.violations.push_back(
       {fmt::format("Vertex {}: {} lies at coordinate {:.6g}, not on the lattice.", v.value, what, x),
        {v.value},
        {mesh_.point(v)}});
+  if (close) return static_cast<std::int32_t>(rounded);
+  found.broken.insert(found.broken.end(), star_.begin(v), star_.end(v));
   return std::nullopt;
 }
 
@@ -161,7 +186,10 @@ void Sanitiser::pin_face(HalfFaceId h, std::vector<Pin>& pins, Found& found) con
                                             h.tet().value, what, spread.cwiseAbs().maxCoeff()),
                                 {h.tet().value},
                                 {(mesh_.point(v[0]) + mesh_.point(v[1]) + mesh_.point(v[2])) / 3}});
-    return;
+    if (!(spread.cwiseAbs().maxCoeff() <= limit_)) {
+      found.broken.push_back(h.tet());
+      return;
+    }
   }
   if (const auto value = lattice_value(mean, v[0], what, found))
     pins.push_back({static_cast<std::size_t>(axis), *value});
@@ -180,7 +208,10 @@ void Sanitiser::pin_edge(TetId t, VertexId a, VertexId b, std::vector<Pin>& pins
                        b.value),
            {a.value, b.value},
            {mesh_.point(a), mesh_.point(b)}});
-      return;
+      if (!(std::abs(x[axis] - y[axis]) <= limit_)) {
+        found.broken.push_back(t);
+        return;
+      }
     }
     if (const auto value = lattice_value((x[axis] + y[axis]) / 2, a, "a feature or singular edge", found))
       pins.push_back({static_cast<std::size_t>(axis), *value});
@@ -214,13 +245,17 @@ void Sanitiser::add_edge_pins(VertexId v, const std::vector<std::size_t>& fan,
   for (std::size_t k = 0; k < spokes.size();) {
     double angle = 0;
     bool boundary = false;
+    bool clear = true;
     std::size_t next = k;
     for (; next < spokes.size() && spokes[next].end == spokes[k].end; ++next) {
       angle += spokes[next].angle;
       boundary = boundary || spokes[next].boundary;
+      clear = clear && not_positive_[tets[spokes[next].member].index()] == 0;
     }
-    const long sectors = std::lround(angle * 2 / M_PI);
-    if (sectors != (boundary ? 2 : 4) || features_.edges.contains(edge_key(v, spokes[k].end))) {
+    // Angles say nothing where a tet is folded over.
+    const bool singular = clear ? std::lround(angle * 2 / M_PI) != (boundary ? 2 : 4)
+                                : turns_around(tets[spokes[k].member], v, spokes[k].end);
+    if (singular || features_.edges.contains(edge_key(v, spokes[k].end))) {
       std::vector<Pin> pins;
       pin_edge(tets[spokes[k].member], v, spokes[k].end, pins, found);
       apply(spokes[k].member, pins);
@@ -258,20 +293,24 @@ void Sanitiser::sanitise_fan(VertexId v, std::size_t seed, std::vector<int>& cha
       apply(member, pins);
     }
   add_edge_pins(v, fan, apply, found);
-  const Vec3 reference = uvw(tets[seed], v);
+  const Vec3 here = reference(v, seed, fan, to_chart);
   if (features_.points.contains(v))
     for (std::size_t a = 0; a < 3; ++a)
-      if (const auto value = lattice_value(reference[static_cast<Eigen::Index>(a)], v, "a feature vertex", found))
+      if (const auto value = lattice_value(here[static_cast<Eigen::Index>(a)], v, "a feature vertex", found))
         apply(seed, {{a, *value}});
-  if (conflict)
+  if (conflict) {
     found.violations.push_back(
         {fmt::format("Vertex {}: its boundary and features ask for different lattice values.", v.value),
          {v.value},
          {mesh_.point(v)}});
+    for (std::size_t member : fan) found.broken.push_back(tets[member]);
+  }
+  for (std::size_t a = 0; a < 3; ++a)
+    if (pinned[a] || seed != 0) pinned_[v.index()] = static_cast<std::uint8_t>(pinned_[v.index()] | 1U << a);
   Fixed3 place{};
   for (std::size_t a = 0; a < 3; ++a)
     place[a] = pinned[a] ? *pinned[a] * (std::int64_t{1} << shift_)
-                         : std::llround(std::ldexp(reference[static_cast<Eigen::Index>(a)], shift_));
+                         : std::llround(std::ldexp(here[static_cast<Eigen::Index>(a)], shift_));
   for (std::size_t member : fan) {
     const TetId t = tets[member];
     const auto i = static_cast<std::size_t>(mesh_.local_index(t, v));
@@ -294,22 +333,66 @@ void Sanitiser::sanitise_vertex(VertexId v, Found& found) {
     if (chart[seed] == 0) sanitise_fan(v, seed, chart, to_chart, found);
 }
 
-void Sanitiser::check_positive(SanitisedMap& result) const {
-  std::vector<char> bad(mesh_.num_tets(), 0);
+void Sanitiser::check_positive() {
+  not_positive_.assign(mesh_.num_tets(), 0);
   parallel_for(mesh_.num_tets(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto& c = corners_[t];
-      bad[t] = hex::orient3d(c[0], c[1], c[2], c[3]) <= 0;
+      not_positive_[t] = hex::orient3d(c[0], c[1], c[2], c[3]) <= 0;
     }
   });
   for (std::size_t t = 0; t < mesh_.num_tets(); ++t)
-    if (bad[t] != 0)
-      result.violations.push_back({fmt::format("Tet {} is inverted or flat in the integer-grid map.", t),
-                                   {static_cast<std::int64_t>(t)},
-                                   {centroid(mesh_, TetId(t))}});
+    if (not_positive_[t] != 0)
+      result_.violations.push_back({fmt::format("Tet {} is inverted or flat in the integer-grid map.", t),
+                                    {static_cast<std::int64_t>(t)},
+                                    {centroid(mesh_, TetId(t))}});
 }
 
-SanitisedMap Sanitiser::run() {
+// Whether the charts turn on a way around the inner edge (a, b) of tet t.
+bool Sanitiser::turns_around(TetId t, VertexId a, VertexId b) const {
+  octahedral::Rotation turn = octahedral::identity;
+  TetId at = t;
+  int leave = -1;
+  for (int i = 0; i < 4; ++i) {
+    const VertexId v = mesh_.vertices(t)[static_cast<std::size_t>(i)];
+    if (v != a && v != b) leave = i;
+  }
+  do {
+    const HalfFaceId h(at, leave);
+    const HalfFaceId o = mesh_.opposite_half_face(h);
+    if (!o.valid()) return false;
+    turn = octahedral::product(map_.rotation(h), turn);
+    at = o.tet();
+    for (int i = 0; i < 4; ++i) {
+      const VertexId v = mesh_.vertices(at)[static_cast<std::size_t>(i)];
+      if (i != o.local() && v != a && v != b) leave = i;
+    }
+  } while (at != t);
+  return turn != octahedral::identity;
+}
+
+// Where v lies in the chart of the fan's first tet: there, or the median of what all its tets say.
+Vec3 Sanitiser::reference(VertexId v, std::size_t seed, const std::vector<std::size_t>& fan,
+                          const std::vector<LatticeTransition>& to_chart) const {
+  const TetId* tets = star_.begin(v);
+  if (!tolerant()) return uvw(tets[seed], v);
+  std::array<std::vector<double>, 3> values;
+  for (std::size_t member : fan) {
+    const LatticeTransition& to = to_chart[member];
+    const Vec3 shift(to.translation[0], to.translation[1], to.translation[2]);
+    const Vec3 x = octahedral::apply(octahedral::inverse(to.rotation), uvw(tets[member], v) - shift);
+    for (std::size_t a = 0; a < 3; ++a) values[a].push_back(x[static_cast<Eigen::Index>(a)]);
+  }
+  Vec3 median;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto middle = values[a].begin() + static_cast<std::ptrdiff_t>(values[a].size() / 2);
+    std::nth_element(values[a].begin(), middle, values[a].end());
+    median[static_cast<Eigen::Index>(a)] = *middle;
+  }
+  return median;
+}
+
+bool Sanitiser::read_coordinates() {
   double largest = 0;
   for (std::size_t t = 0; t < mesh_.num_tets(); ++t)
     for (const Vec3& p : map_.uvw[t]) {
@@ -318,19 +401,20 @@ SanitisedMap Sanitiser::run() {
             {fmt::format("Tet {}: a coordinate of the integer-grid map is not finite or too large.", t),
              {static_cast<std::int64_t>(t)},
              {centroid(mesh_, TetId(t))}});
-        return std::move(result_);
+        return false;
       }
       largest = std::max(largest, p.cwiseAbs().maxCoeff());
     }
-  shift_ = hex::fixed_shift(std::ceil(largest + tolerance_));
+  shift_ = hex::fixed_shift(std::ceil(largest + limit_));
   corners_.resize(mesh_.num_tets());
   for (std::size_t t = 0; t < mesh_.num_tets(); ++t)
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t a = 0; a < 3; ++a)
         corners_[t][i][a] = std::llround(std::ldexp(map_.uvw[t][i][static_cast<Eigen::Index>(a)], shift_));
-  check_positive(result_);  // first, because a fold makes everything near it look wrong as well
-  if (result_.violations.empty()) round_transitions();
-  if (!result_.violations.empty()) return std::move(result_);
+  return true;
+}
+
+void Sanitiser::sanitise_vertices() {
   result_.map = map_;
   const std::size_t n = mesh_.num_vertices();
   std::vector<Found> found((n + grain - 1) / grain);
@@ -340,18 +424,60 @@ SanitisedMap Sanitiser::run() {
   for (Found& f : found) {
     result_.largest_move = std::max(result_.largest_move, f.largest_move);
     std::move(f.violations.begin(), f.violations.end(), std::back_inserter(result_.violations));
+    for (TetId t : f.broken) broken_[t.index()] = 1;
   }
+}
+
+SanitisedMap Sanitiser::run() {
+  if (!read_coordinates()) return std::move(result_);
+  check_positive();  // first, because a fold makes everything near it look wrong as well
+  if (result_.violations.empty()) round_transitions();
+  if (!result_.violations.empty()) return std::move(result_);
+  sanitise_vertices();
   if (!(result_.largest_move <= tolerance_))
     result_.violations.push_back(
         {fmt::format("Making the integer-grid map exact moves a corner by {:.3g}.", result_.largest_move), {}, {}});
-  check_positive(result_);
+  check_positive();
   return std::move(result_);
+}
+
+HealedMap Sanitiser::heal() {
+  if (!read_coordinates())
+    throw Error(ExitCode::bad_hex_mesh, result_.violations[0].sentence, result_.violations[0].ids,
+                result_.violations[0].places);
+  check_positive();
+  round_transitions();
+  sanitise_vertices();
+  HealedMap healed;
+  healed.defects = std::move(result_.violations);
+  hex::FixedMap fixed{shift_, std::move(corners_), std::move(transitions_)};
+  healed.moved = hex::untangle_images(mesh_, fixed, star_, pinned_);
+  healed.map = std::move(result_.map);
+  healed.tets.assign(mesh_.num_tets(), HealedMap::Tet::positive);
+  for (std::size_t t = 0; t < mesh_.num_tets(); ++t) {
+    const auto& c = fixed.corners[t];
+    const int sign = hex::orient3d(c[0], c[1], c[2], c[3]);
+    if (sign < 0 || broken_[t] != 0)
+      healed.tets[t] = HealedMap::Tet::unusable;
+    else if (sign == 0)
+      healed.tets[t] = HealedMap::Tet::flat;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        healed.map.uvw[t][i][static_cast<Eigen::Index>(a)] =
+            std::ldexp(static_cast<double>(fixed.corners[t][i][a]), -shift_);
+  }
+  return healed;
 }
 
 }  // namespace
 
 SanitisedMap sanitise_igm(const TetMesh& mesh, const Features& features, const IntegerGridMap& map, double tolerance) {
-  return Sanitiser(mesh, features, map, tolerance).run();
+  return Sanitiser(mesh, features, map, tolerance, tolerance).run();
+}
+
+HealedMap heal_igm(const TetMesh& mesh, const Features& features, const IntegerGridMap& map, double tolerance,
+                   double limit) {
+  return Sanitiser(mesh, features, map, tolerance, limit).heal();
 }
 
 }  // namespace hexfield

@@ -17,6 +17,9 @@ namespace hexfield {
 namespace {
 
 constexpr int untangling_rounds = 30;
+/// Share of defects up to which no frames are tried: so few tets stay turned over where arcs or features share a
+/// coordinate that they must not share, which no map of the space changes.
+constexpr double few_defects = 0.002;
 /// The frames are given up when this many stages in a row end without a better conforming map ...
 constexpr int max_idle_stages = 2;
 /// ... which has at most this share of the defects of the best one before.
@@ -60,7 +63,7 @@ class Stage {
     Candidate best;
     if (!restore(problem, best)) {
       best = fitted(problem, field_frames());
-      if (!best.report.valid() && !some_tets_are_flat_) try_integrable_frames(problem, best);
+      if (frames_may_help(problem, best.report)) try_integrable_frames(problem, best);
     }
     if (best.report.inverted.empty()) {
       const Candidate polished = judged(polish(problem, best.unknowns, newton_memory_));
@@ -94,6 +97,11 @@ class Stage {
 
   static void keep_better(Candidate& best, Candidate other) {
     if (other.better_than(best)) best = std::move(other);
+  }
+
+  bool frames_may_help(const MapProblem& problem, const MapReport& report) const {
+    const auto tets = static_cast<double>(problem.distributed().num_global_tets());
+    return !report.valid() && !some_tets_are_flat_ && defects(report) > few_defects * tets;
   }
 
   // The conforming fit to frames; where it is not valid, made positive, then untangled.
@@ -171,7 +179,9 @@ class Stage {
     solve::NewtonOptions newton;
     newton.preconditioner = solve::Preconditioner::cholesky;
     newton.max_iterations = 60;
-    newton.decrease_tolerance = 1e-12;
+    // The gradient of a start with thin tets is huge, so it measures nothing.
+    newton.gradient_tolerance = 0;
+    newton.decrease_tolerance = 1e-8;
     const solve::EnergyTerm* terms[] = {&energy};
     if (!std::isfinite(solve::evaluate(comm_, terms, y.get()))) return start;
     monitor_.minimise(

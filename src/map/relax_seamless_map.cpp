@@ -13,7 +13,7 @@ namespace hexfield {
 namespace {
 
 constexpr int untangling_rounds = 30;
-constexpr int max_newton_steps = 60;
+constexpr int max_newton_steps = 120;
 
 /// Share in the total volume, at least that of a mean tet.
 std::vector<double> raised_weights(const MapProblem& problem) {
@@ -52,6 +52,9 @@ SeamlessResult relax_seamless_map(MPI_Comm comm, const TetMesh& mesh, const Feat
     solve::NewtonOptions newton;
     newton.preconditioner = solve::Preconditioner::cholesky;
     newton.max_iterations = max_newton_steps;
+    // The gradient of a start with thin tets is huge, so it measures nothing.
+    newton.gradient_tolerance = 0;
+    newton.decrease_tolerance = 1e-8;
     monitor.minimise(comm, terms, y.get(), newton, "seamless map", {});
     unknowns = problem.gather(y.get(), {});
   }

@@ -3,29 +3,11 @@
 #include <algorithm>
 #include <set>
 
+#include "disjoint_sets.hpp"
 #include "reduction.hpp"
 
 namespace hexfield::quantize {
 namespace {
-
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) {
-    for (std::size_t i = 0; i < n; ++i) parent_[i] = static_cast<std::int32_t>(i);
-  }
-  std::int32_t find(std::int32_t i) {
-    while (at(i) != i) i = at(i) = at(at(i));
-    return i;
-  }
-  void unite(std::int32_t a, std::int32_t b) {
-    a = find(a), b = find(b);
-    at(std::max(a, b)) = std::min(a, b);
-  }
-
- private:
-  std::int32_t& at(std::int32_t i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<std::int32_t> parent_;
-};
 
 std::vector<Link> links_of(const BlockComplex& complex, const CriticalSet& critical) {
   std::vector<std::vector<std::int32_t>> at(complex.nodes.size());
@@ -76,6 +58,12 @@ ArcSum sorted_sum(ArcSum terms) {
   return sum;
 }
 
+std::int64_t value_of(const ArcSum& sum, const std::vector<std::int64_t>& lengths) {
+  std::int64_t total = 0;
+  for (const auto& [a, c] : sum) total += c * lengths[static_cast<std::size_t>(a)];
+  return total;
+}
+
 CriticalSet critical_set(const BlockComplex& complex) {
   CriticalSet critical;
   critical.nodes = critical_nodes(complex);
@@ -88,7 +76,7 @@ CriticalSet critical_set(const BlockComplex& complex) {
     critical.statics.push_back(sorted_sum(std::move(sum)));
   }
   // Regions: critical patches connected across arcs that are not.
-  Sets sets(complex.patches.size());
+  DisjointSets sets(complex.patches.size());
   std::vector<std::int32_t> last(complex.arcs.size(), -1);
   const auto for_arcs = [&](std::size_t p, const auto& visit) {
     for (const auto& side : complex.patches[p].sides)
@@ -129,7 +117,7 @@ std::vector<std::int64_t> BundleSystem::on_arcs(const std::vector<std::int64_t>&
 }
 
 BundleSystem bundle_system(const BlockComplex& complex, double scale) {
-  Sets sets(complex.arcs.size());
+  DisjointSets sets(complex.arcs.size());
   for (const auto& patch : complex.patches)
     for (std::size_t k = 0; k < 3; ++k)
       if (patch.sides[2 * k].size() == 1 && patch.sides[2 * k + 1].size() == 1)

@@ -8,6 +8,8 @@ namespace hexfield::quantize {
 using ArcSum = std::vector<std::pair<std::int32_t, int>>;
 
 ArcSum sorted_sum(ArcSum terms);
+/// Its value for integer lengths.
+std::int64_t value_of(const ArcSum& sum, const std::vector<std::int64_t>& lengths);
 
 /// A chain of singular or feature arcs between critical nodes, walked from its first node (spec 4.3).
 struct Link {

@@ -78,9 +78,58 @@ class Maker {
                        {e[0].value, e[1].value},
                        {0.5 * (mesh_.point(e[0]) + mesh_.point(e[1]))}});
     if (!fail(ExactFailure::unclear_index, std::move(found))) return false;
-    if (report.max_residual <= tolerance_ * mean_edge(map_)) return true;
-    return fail(ExactFailure::not_seamless,
-                {{fmt::format("The map misses a transition or an alignment by {:.3g}.", report.max_residual), {}, {}}});
+    const double allowed = tolerance_ * mean_edge(map_);
+    if (report.max_residual <= allowed) return true;
+    return fail(ExactFailure::not_seamless, misses(allowed));
+  }
+
+  const Vec3& at(TetId t, VertexId v) const {
+    return map_.uvw[t.index()][static_cast<std::size_t>(mesh_.local_index(t, v))];
+  }
+
+  // Transitions and alignments that miss by more than `allowed`, the worst first.
+  std::vector<Violation> misses(double allowed) const {
+    std::vector<std::pair<double, Violation>> found;
+    const auto add = [&](double miss, std::string what, std::vector<std::int64_t> ids, std::vector<Vec3> places) {
+      if (!(miss > allowed)) return;
+      found.push_back({miss, {fmt::format("{} by {:.3g}.", what, miss), std::move(ids), std::move(places)}});
+    };
+    for (std::size_t i = 0; i < 4 * mesh_.num_tets(); ++i) {
+      const HalfFaceId h{static_cast<std::int64_t>(i)};
+      const HalfFaceId o = mesh_.opposite_half_face(h);
+      if (mesh_.is_boundary(h) || o < h) continue;
+      const Vec3 translation = transition_translation(mesh_, map_, h);
+      double miss = 0;
+      Vec3 place = Vec3::Zero();
+      for (VertexId v : mesh_.face_vertices(h)) {
+        place += mesh_.point(v) / 3;
+        const Vec3 there = octahedral::apply(map_.rotation(h), at(h.tet(), v)) + translation;
+        miss = std::max(miss, (there - at(o.tet(), v)).cwiseAbs().maxCoeff());
+      }
+      add(miss, fmt::format("Tets {} and {}: the transition between them misses", h.tet().value, o.tet().value),
+          {h.tet().value, o.tet().value}, {place});
+    }
+    const Alignments alignments = alignments_of_map(mesh_, features_, result_.codes, map_);
+    for (const FaceAlignment& a : alignments.faces) {
+      const auto v = mesh_.face_vertices(a.face);
+      const TetId t = a.face.tet();
+      const auto x = [&](std::size_t k) { return at(t, v[k])[a.axis]; };
+      add(std::max(std::abs(x(1) - x(0)), std::abs(x(2) - x(0))),
+          fmt::format("Tet {}: its boundary or feature face misses a coordinate plane", t.value), {t.value},
+          {(mesh_.point(v[0]) + mesh_.point(v[1]) + mesh_.point(v[2])) / 3});
+    }
+    for (const EdgeAlignment& a : alignments.edges) {
+      Vec3 across = at(a.tet, a.edge[1]) - at(a.tet, a.edge[0]);
+      across[a.axis] = 0;
+      add(across.cwiseAbs().maxCoeff(),
+          fmt::format("Edge ({}, {}): a feature or singular edge misses a coordinate line", a.edge[0].value,
+                      a.edge[1].value),
+          {a.edge[0].value, a.edge[1].value}, {mesh_.point(a.edge[0]), mesh_.point(a.edge[1])});
+    }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Violation> violations;
+    for (auto& entry : found) violations.push_back(std::move(entry.second));
+    return violations;
   }
 
   void make() {

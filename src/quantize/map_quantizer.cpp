@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "hexfield/quantize/quantization.hpp"
 #include "integer_frames.hpp"
 #include "wall_cells.hpp"
 
@@ -32,6 +33,10 @@ const BlockComplex& MapQuantizer::complex() const { return impl_->cells.complex;
 
 std::vector<double> MapQuantizer::integer_unknowns(const ConformingSpace& space,
                                                    const std::vector<std::int64_t>& lengths) const {
+  const std::vector<Violation> wrong = check(complex(), lengths);
+  if (!wrong.empty())
+    throw Error(ExitCode::no_integer_grid_map, "The integer lengths are not valid. " + wrong[0].sentence, wrong[0].ids,
+                wrong[0].places);
   return IntegerFrames(impl_->walls, impl_->cells, space, lengths).unknowns();
 }
 

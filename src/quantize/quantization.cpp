@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "path_objective.hpp"
 #include "programs.hpp"
 #include "separation.hpp"
 
@@ -28,6 +29,26 @@ double real_volume(const BlockComplex& complex) {
   return sum;
 }
 
+// The program of the options, with the static constraints.
+Program make_program(const BlockComplex& complex, const BundleSystem& system, const CriticalSet& critical, double scale,
+                     const QuantizeOptions& options) {
+  Program program{system, system.size, std::vector<std::int64_t>(system.num_bundles(), 0), {}, {}};
+  for (std::size_t a = 0; a < options.least.size(); ++a) {
+    auto& least = program.least[static_cast<std::size_t>(system.bundle[a])];
+    least = std::max(least, options.least[a]);
+  }
+  if (options.objective == QuantizeObjective::arcs) return program;
+  for (double& weight : program.weights) weight *= options.arc_share / static_cast<double>(complex.arcs.size());
+  for (const ObjectivePath& path : objective_paths(complex, critical))
+    for (const ArcSum& along : path.along) {
+      Program::Square square{system.on_bundles(along), (1 - options.arc_share) * path.weight, 0};
+      if (square.sum.empty() || square.weight == 0) continue;
+      for (const auto& [a, c] : along) square.target += c * scale * complex.length(static_cast<std::size_t>(a));
+      program.squares.push_back(std::move(square));
+    }
+  return program;
+}
+
 class Quantizer {
  public:
   Quantizer(const BlockComplex& complex, const QuantizeOptions& options)
@@ -36,14 +57,15 @@ class Quantizer {
         scale_(std::cbrt(options.target_hexes / real_volume(complex))),
         critical_(critical_set(complex)),
         system_(bundle_system(complex, scale_)),
-        program_{system_, {}, options.method == QuantizeMethod::positive ? 1 : 0, options.min_layers} {
-    for (const ArcSum& s : critical_.statics) add_row(s);
-  }
+        program_(make_program(complex, system_, critical_, scale_, options)),
+        search_(complex, critical_) {}
 
   Quantization run() {
     bool found = false;
-    if (options_.method == QuantizeMethod::pump) found = by_pump();
-    if (options_.method == QuantizeMethod::ilp) found = by_ilp();
+    if (options_.method != QuantizeMethod::positive) {
+      for (const ArcSum& s : critical_.statics) add_row(s);
+      found = options_.method == QuantizeMethod::pump ? by_pump() : by_ilp();
+    }
     if (!found) by_positive();
     result_.scale = scale_;
     result_.objective = program_.objective(x_);
@@ -56,17 +78,16 @@ class Quantizer {
   bool add_row(const ArcSum& arcs) {
     ArcSum row = system_.on_bundles(arcs);
     if (row.empty() || !known_.insert(row).second) return false;
-    program_.rows.push_back(std::move(row));
+    program_.rows.push_back({std::move(row), options_.min_layers});
     return true;
   }
 
   // Searches coincidences of x_; false when there are none that are new.
   bool separate() {
-    SeparationSearch search(complex_, critical_);
     bool fresh = false;
     ++result_.rounds;
     clean_ = true;
-    for (const Separation& s : search.run(system_.on_arcs(x_))) {
+    for (const Separation& s : search_.run(system_.on_arcs(x_), options_.min_layers)) {
       clean_ = false;
       const bool added = add_row(s.cut);
       fresh = fresh || added;
@@ -93,44 +114,36 @@ class Quantizer {
     return false;
   }
 
+  // What the pump finds; where it finds nothing, a rough integer program's.
+  bool pump(SheetPump& sheets) {
+    auto solved = sheets.solve();
+    if (!solved) solved = solve_ilp(program_, 0.05, options_.time_limit);
+    if (!solved) return false;
+    x_ = solved->x;
+    result_.proven_optimal = solved->proven;
+    result_.sheets = sheets.pumped();
+    return true;
+  }
+
   bool by_pump() {
-    x_.assign(system_.num_bundles(), 0);
-    bool thorough = false;
+    SheetPump sheets(program_);
     for (int round = 0; round < max_rounds; ++round) {
-      SheetPump pump(program_);
-      if (!program_.violated(x_).empty() && !pump.repair(x_)) {
-        const auto solved = solve_ilp(program_, 0.5, options_.time_limit);
-        if (!solved) return false;
-        x_ = solved->x;
-      }
-      pump.descend(x_, thorough);
-      result_.sheets += pump.pumped();
-      if (separate()) {
-        thorough = false;
-        continue;
-      }
-      if (!clean_) return false;
-      if (thorough) {
-        result_.method = QuantizeMethod::pump;
-        return true;
-      }
-      thorough = true;
+      if (!pump(sheets)) return false;
+      if (separate()) continue;
+      result_.method = QuantizeMethod::pump;
+      return clean_;
     }
     return false;
   }
 
   void by_positive() {
-    program_.lower = 1;
+    for (auto& least : program_.least) least = std::max<std::int64_t>(least, options_.min_layers);
     program_.rows.clear();
-    known_.clear();
-    for (const ArcSum& s : critical_.statics) add_row(s);
-    const auto solved = solve_ilp(program_, 1e-4, options_.time_limit);
-    if (!solved)
+    SheetPump sheets(program_);
+    if (!pump(sheets))
       throw Error(ExitCode::no_integer_grid_map,
-                  "No integer lengths of at least 1 satisfy the patches of the motorcycle complex.");
-    x_ = solved->x;
+                  "No positive integer lengths satisfy the patches of the motorcycle complex.");
     result_.method = QuantizeMethod::positive;
-    result_.proven_optimal = solved->proven;
   }
 
   const BlockComplex& complex_;
@@ -139,15 +152,29 @@ class Quantizer {
   CriticalSet critical_;
   BundleSystem system_;
   Program program_;
+  SeparationSearch search_;
   std::set<ArcSum> known_;
   std::vector<std::int64_t> x_;
   bool clean_ = false;
   Quantization result_;
 };
 
+void check_options(const BlockComplex& complex, const QuantizeOptions& options) {
+  const auto demand = [](bool good, const char* what) {
+    if (!good) throw Error(ExitCode::usage, what);
+  };
+  demand(options.target_hexes > 0 && std::isfinite(options.target_hexes), "The number of hexes must be positive.");
+  demand(options.min_layers >= 1, "The least number of layers must be at least 1.");
+  demand(options.arc_share > 0 && options.arc_share <= 1, "The share of the arcs must be above 0 and at most 1.");
+  demand(options.least.empty() || options.least.size() == complex.arcs.size(),
+         "There must be one least length per arc, or none.");
+  for (std::int64_t least : options.least) demand(least >= 0, "A least length of an arc cannot be negative.");
+}
+
 }  // namespace
 
 Quantization quantize_complex(const BlockComplex& complex, const QuantizeOptions& options) {
+  check_options(complex, options);
   return Quantizer(complex, options).run();
 }
 
@@ -165,19 +192,14 @@ std::int64_t count_hexes(const BlockComplex& complex, const std::vector<std::int
   return hexes;
 }
 
-std::vector<Violation> check(const BlockComplex& complex, const std::vector<std::int64_t>& lengths) {
+std::vector<Violation> check(const BlockComplex& complex, const std::vector<std::int64_t>& lengths, int min_layers) {
   std::vector<Violation> found;
-  const auto sum = [&](const ArcSum& terms) {
-    std::int64_t total = 0;
-    for (const auto& [a, c] : terms) total += c * lengths[static_cast<std::size_t>(a)];
-    return total;
-  };
   for (std::size_t p = 0; p < complex.patches.size(); ++p)
     for (std::size_t k = 0; k < 3; ++k) {
       ArcSum terms;
       for (std::int32_t a : complex.patches[p].sides[2 * k]) terms.emplace_back(a, 1);
       for (std::int32_t a : complex.patches[p].sides[2 * k + 1]) terms.emplace_back(a, -1);
-      if (sum(terms) != 0)
+      if (value_of(terms, lengths) != 0)
         found.push_back(
             {fmt::format("Patch {}: opposite sides have different integer lengths.", p),
              {static_cast<std::int64_t>(p)},
@@ -187,17 +209,19 @@ std::vector<Violation> check(const BlockComplex& complex, const std::vector<std:
   if (!found.empty()) return found;
   const CriticalSet critical = critical_set(complex);
   for (const ArcSum& s : critical.statics)
-    if (sum(s) < 1)
+    if (value_of(s, lengths) < min_layers)
       found.push_back(
-          {"A feature, singular arc or boundary region collapses.",
+          {"A feature, singular arc or boundary region has too few layers.",
            {s[0].first},
            {complex.nodes[static_cast<std::size_t>(complex.arcs[static_cast<std::size_t>(s[0].first)].nodes[0])]
                 .place}});
   SeparationSearch search(complex, critical);
-  for (const Separation& s : search.run(lengths))
-    found.push_back({fmt::format("Node {}: two critical entities fall onto each other.", s.node),
-                     {s.node},
-                     {complex.nodes[static_cast<std::size_t>(s.node)].place}});
+  for (const Separation& s : search.run(lengths, min_layers))
+    found.push_back(
+        {fmt::format("Node {}: two critical entities fall onto each other, or have too few layers between them.",
+                     s.node),
+         {s.node},
+         {complex.nodes[static_cast<std::size_t>(s.node)].place}});
   return found;
 }
 

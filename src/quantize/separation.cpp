@@ -13,36 +13,21 @@ bool contains(const List& list, std::int32_t x) {
   return std::find(list.begin(), list.end(), x) != list.end();
 }
 
+template <class Reached>
+bool holds(const std::vector<Reached>& reached, std::int32_t block) {
+  return std::any_of(reached.begin(), reached.end(), [&](const Reached& r) { return r.block == block; });
+}
+
 }  // namespace
 
 SeparationSearch::SeparationSearch(const BlockComplex& complex, const CriticalSet& critical)
-    : complex_(complex),
-      critical_(critical),
-      node_patches_(complex.nodes.size()),
-      node_arcs_(complex.nodes.size()),
-      arc_blocks_(complex.arcs.size()),
-      expanded_(complex.nodes.size(), -1) {
-  for (std::size_t a = 0; a < complex.arcs.size(); ++a)
-    for (std::int32_t n : complex.arcs[a].nodes)
-      node_arcs_[static_cast<std::size_t>(n)].push_back(static_cast<std::int32_t>(a));
-  for (std::size_t p = 0; p < complex.patches.size(); ++p)
-    for (const auto& side : complex.patches[p].sides)
-      for (std::int32_t a : side)
-        for (std::int32_t n : complex.arcs[static_cast<std::size_t>(a)].nodes) {
-          auto& patches = node_patches_[static_cast<std::size_t>(n)];
-          if (patches.empty() || patches.back() != static_cast<std::int32_t>(p))
-            patches.push_back(static_cast<std::int32_t>(p));
-        }
-  for (std::size_t b = 0; b < complex.blocks.size(); ++b)
-    for (const auto& [arc, label] : complex.blocks[b].arcs)
-      arc_blocks_[static_cast<std::size_t>(arc)].emplace_back(static_cast<std::int32_t>(b), label);
-}
+    : complex_(complex), critical_(critical), stars_(complex), expanded_(complex.nodes.size(), -1) {}
 
 template <class Visit>
 void SeparationSearch::arcs_at(std::int32_t node, const Reached& r, const Visit& visit) const {
   const Rotation back = octahedral::inverse(r.turn);
-  for (std::int32_t a : node_arcs_[static_cast<std::size_t>(node)])
-    for (const auto& [block, label] : arc_blocks_[static_cast<std::size_t>(a)]) {
+  for (std::int32_t a : stars_.node_arcs[static_cast<std::size_t>(node)])
+    for (const auto& [block, label] : stars_.arc_blocks[static_cast<std::size_t>(a)]) {
       if (block != r.block) continue;
       const bool forward = complex_.arcs[static_cast<std::size_t>(a)].nodes[0] == node;
       visit(a, octahedral::image(back, forward ? label : octahedral::negate(label)));
@@ -50,20 +35,30 @@ void SeparationSearch::arcs_at(std::int32_t node, const Reached& r, const Visit&
     }
 }
 
-std::vector<Separation> SeparationSearch::run(const std::vector<std::int64_t>& lengths) {
+std::vector<Separation> SeparationSearch::run(const std::vector<std::int64_t>& lengths, std::int64_t layers) {
   layout_.emplace(complex_, lengths);
+  layers_ = layers;
   found_.clear();
   for (std::size_t n = 0; n < complex_.nodes.size(); ++n)
     if (critical_.nodes[n] != 0)
-      for (std::int32_t a : node_arcs_[n]) from_node(static_cast<std::int32_t>(n), a);
+      for (std::int32_t a : stars_.node_arcs[n]) from_node(static_cast<std::int32_t>(n), a);
   for (const Link& link : critical_.links)
-    for (std::int32_t p : node_patches_[static_cast<std::size_t>(link.nodes[0])]) from_link(link, p);
+    for (std::int32_t p : stars_.node_patches[static_cast<std::size_t>(link.nodes[0])]) from_link(link, p);
   return std::move(found_);
 }
 
+// The entities to be found are those closer than the number of layers.
+void SeparationSearch::widen(Source& source) const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    source.box.low[k] -= layers_ - 1;
+    source.box.high[k] += layers_ - 1;
+  }
+}
+
 void SeparationSearch::from_node(std::int32_t node, std::int32_t arc) {
-  const auto [block, label] = arc_blocks_[static_cast<std::size_t>(arc)].front();
+  const auto [block, label] = stars_.arc_blocks[static_cast<std::size_t>(arc)].front();
   Source source;
+  widen(source);
   source.leaves = complex_.arcs[static_cast<std::size_t>(arc)].nodes[0] == node ? label : octahedral::negate(label);
   queue_.clear();
   steps_.clear();
@@ -90,6 +85,7 @@ void SeparationSearch::from_link(const Link& link, std::int32_t patch) {
   source.axes = 1U << octahedral::axis(along);
   source.box.add(step(along, link.closed ? unbounded : length));
   if (link.closed) source.box.add(step(along, -unbounded));
+  widen(source);
   queue_.clear();
   steps_.clear();
   std::vector<Reached> reached;
@@ -113,8 +109,7 @@ void SeparationSearch::from_link(const Link& link, std::int32_t patch) {
 
 SeparationSearch::Place SeparationSearch::follow(const Place& at, const Reached& r, std::int32_t arc,
                                                  Label label) const {
-  const auto& ends = complex_.arcs[static_cast<std::size_t>(arc)].nodes;
-  Place next{ends[0] == at.node ? ends[1] : ends[0], r.block, r.turn, at.offset};
+  Place next{other_node(complex_, arc, at.node), r.block, r.turn, at.offset};
   const Integer3 d = step(label, layout_->length(arc));
   for (std::size_t k = 0; k < 3; ++k) next.offset[k] += d[k];
   return next;
@@ -168,15 +163,11 @@ void SeparationSearch::flood(const Source& source, const Place& at, std::vector<
   for (std::size_t k = 0; k < reached.size(); ++k) {
     const Reached here = reached[k];
     const IntegerBox box = in_block(source, at, here);
-    for (std::int32_t p : node_patches_[static_cast<std::size_t>(at.node)]) {
-      const auto& patch = complex_.patches[static_cast<std::size_t>(p)];
-      if (patch.blocks[1] < 0 || (patch.blocks[0] != here.block && patch.blocks[1] != here.block)) continue;
-      const bool forward = patch.blocks[0] == here.block;
-      const std::int32_t next = patch.blocks[forward ? 1 : 0];
-      if (std::any_of(reached.begin(), reached.end(), [&](const Reached& r) { return r.block == next; })) continue;
+    for (std::int32_t p : stars_.node_patches[static_cast<std::size_t>(at.node)]) {
+      const PatchStep next = across(complex_, p, here.block);
+      if (next.block < 0 || holds(reached, next.block)) continue;
       if (!layout_->rectangle(here.block, p).meets(box)) continue;
-      const Rotation turn = forward ? patch.rotation : octahedral::inverse(patch.rotation);
-      reached.push_back({next, octahedral::product(turn, here.turn)});
+      reached.push_back({next.block, octahedral::product(next.rotation, here.turn)});
     }
   }
 }
@@ -189,12 +180,10 @@ void SeparationSearch::flood_sector(const Place& at, Label leaves, std::vector<R
     const Label label = octahedral::image(here.turn, leaves);
     const auto axis = static_cast<std::size_t>(octahedral::axis(label));
     const Integer3& x = layout_->real_place(here.block, at.node);
-    for (std::int32_t p : node_patches_[static_cast<std::size_t>(at.node)]) {
+    for (std::int32_t p : stars_.node_patches[static_cast<std::size_t>(at.node)]) {
+      const PatchStep next = across(complex_, p, here.block);
+      if (next.block < 0 || holds(reached, next.block)) continue;
       const auto& patch = complex_.patches[static_cast<std::size_t>(p)];
-      if (patch.blocks[1] < 0 || (patch.blocks[0] != here.block && patch.blocks[1] != here.block)) continue;
-      const bool forward = patch.blocks[0] == here.block;
-      const std::int32_t next = patch.blocks[forward ? 1 : 0];
-      if (std::any_of(reached.begin(), reached.end(), [&](const Reached& r) { return r.block == next; })) continue;
       bool extends = false;
       for (const auto& side : patch.sides)
         for (std::int32_t a : side)
@@ -203,8 +192,7 @@ void SeparationSearch::flood_sector(const Place& at, Label leaves, std::vector<R
             extends = extends || ((label & 1) != 0 ? d < 0 : d > 0);
           }
       if (!extends) continue;
-      const Rotation turn = forward ? patch.rotation : octahedral::inverse(patch.rotation);
-      reached.push_back({next, octahedral::product(turn, here.turn)});
+      reached.push_back({next.block, octahedral::product(next.rotation, here.turn)});
     }
   }
 }
@@ -223,7 +211,7 @@ bool SeparationSearch::violated(const Source& source, const State& state, const 
       hit = interval.meets(source.box) && report(source, state, 1U << octahedral::axis(label));
     });
     if (hit) return true;
-    for (std::int32_t p : node_patches_[static_cast<std::size_t>(at.node)]) {
+    for (std::int32_t p : stars_.node_patches[static_cast<std::size_t>(at.node)]) {
       const auto& patch = complex_.patches[static_cast<std::size_t>(p)];
       if (critical_.patches[static_cast<std::size_t>(p)] == 0) continue;
       if (patch.blocks[0] != r.block && patch.blocks[1] != r.block) continue;
@@ -262,7 +250,11 @@ bool SeparationSearch::report(const Source& source, const State& state, unsigned
       one_way.emplace_back(step_taken.arc, 1);
     }
   }
-  found_.push_back({sorted_sum(std::move(all)), sorted_sum(std::move(one_way)), state.place.node});
+  all = sorted_sum(std::move(all));
+  std::int64_t apart = 0;
+  for (const auto& [arc, sign] : all) apart += sign * layout_->length(arc);
+  if (apart >= layers_) return false;
+  found_.push_back({std::move(all), sorted_sum(std::move(one_way)), state.place.node});
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "arc_system.hpp"
+#include "complex_stars.hpp"
 #include "integer_layout.hpp"
 
 namespace hexfield::quantize {
@@ -10,8 +11,8 @@ namespace hexfield::quantize {
 /// Critical entities that integer lengths put in one place though the map keeps them apart, found by walking from
 /// every critical node and link (spec-quantization 4.4).
 struct Separation {
-  ArcSum cut;            ///< must be at least 1
-  ArcSum positive_only;  ///< the part over axes walked one way; also at least 1 in the map
+  ArcSum cut;            ///< must be at least the number of layers
+  ArcSum positive_only;  ///< the part over axes walked one way; also positive in the map
   std::int32_t node;     ///< where the walk ended
 };
 
@@ -19,8 +20,9 @@ class SeparationSearch {
  public:
   SeparationSearch(const BlockComplex& complex, const CriticalSet& critical);
 
-  /// First coincidence of every sector of every source; lengths satisfy the equations of all patches.
-  std::vector<Separation> run(const std::vector<std::int64_t>& lengths);
+  /// First coincidence of every sector of every source; lengths satisfy the equations of all patches. With more than
+  /// one layer also the first entity that is closer than so many.
+  std::vector<Separation> run(const std::vector<std::int64_t>& lengths, std::int64_t layers = 1);
 
  private:
   using Label = octahedral::Label;
@@ -56,6 +58,7 @@ class SeparationSearch {
     Label leaves = 0;
   };
 
+  void widen(Source& source) const;
   void from_node(std::int32_t node, std::int32_t arc);
   void from_link(const Link& link, std::int32_t patch);
   void leave(const Source& source, const Place& from, std::int32_t arc, Label label);
@@ -72,9 +75,9 @@ class SeparationSearch {
 
   const BlockComplex& complex_;
   const CriticalSet& critical_;
-  std::vector<std::vector<std::int32_t>> node_patches_, node_arcs_;
-  std::vector<std::vector<std::pair<std::int32_t, Label>>> arc_blocks_;
+  ComplexStars stars_;
   std::optional<IntegerLayout> layout_;
+  std::int64_t layers_ = 1;
   std::vector<State> queue_;  // a heap
   std::vector<Step> steps_;
   std::int64_t serial_ = 0;

@@ -36,10 +36,10 @@ TEST(QuantizationModels, EveryMapGetsValidIntegers) {
     for (const double hexes : {1.0, 1000.0, 20000.0}) {
       SCOPED_TRACE(fmt::format("{} at {}", file.filename().string(), hexes));
       const double start = user_seconds();
-      const Quantization pump = quantize_complex(complex, {QuantizeMethod::pump, hexes, 60});
+      const Quantization pump = quantize_complex(complex, {.method = QuantizeMethod::pump, .target_hexes = hexes});
       const double middle = user_seconds();
       expect_valid(complex, pump.lengths);
-      const Quantization ilp = quantize_complex(complex, {QuantizeMethod::ilp, hexes, 60});
+      const Quantization ilp = quantize_complex(complex, {.method = QuantizeMethod::ilp, .target_hexes = hexes});
       const double end = user_seconds();
       expect_valid(complex, ilp.lengths);
       EXPECT_EQ(pump.method, QuantizeMethod::pump);
@@ -73,7 +73,8 @@ TEST(QuantizationModels, IntegerUnknownsFollowTheMap) {
     const std::vector<double> y = unknowns_of(input.mesh, space, exact.map);
     try {
       const MapQuantizer quantizer(input.mesh, input.features, exact.codes, exact.map);
-      const Quantization q = quantize_complex(quantizer.complex(), {QuantizeMethod::pump, 20000, 60});
+      const Quantization q =
+          quantize_complex(quantizer.complex(), {.method = QuantizeMethod::pump, .target_hexes = 20000});
       const std::vector<double> integers = quantizer.integer_unknowns(space, q.lengths);
       double worst = 0;
       for (std::size_t k = 0; k < integers.size(); ++k)

@@ -31,7 +31,7 @@ double volume(const BlockComplex& c) {
 }
 
 Quantization at_scale_one(const BlockComplex& c, QuantizeMethod method) {
-  return quantize_complex(c, {method, volume(c), 60});
+  return quantize_complex(c, {.method = method, .target_hexes = volume(c)});
 }
 
 std::vector<std::int64_t> distinct(std::vector<std::int64_t> x) {

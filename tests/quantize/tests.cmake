@@ -7,3 +7,8 @@ if(TARGET hexfield::io)
   add_test(NAME quantize_models COMMAND test_quantize_models)
   set_tests_properties(quantize_models PROPERTIES LABELS quantize TIMEOUT 600 PROCESSORS 2 ENVIRONMENT "${HEXFIELD_TEST_ENVIRONMENT}")
 endif()
+# A benchmark only times, so ctest never runs it.
+if(HEXFIELD_BENCHMARKS AND TARGET hexfield::io)
+  add_executable(bench_quantize ${CMAKE_CURRENT_LIST_DIR}/../bench/quantize_bench.cpp)
+  target_link_libraries(bench_quantize PRIVATE hexfield::io hexfield::quantize deps::gmp)
+endif()

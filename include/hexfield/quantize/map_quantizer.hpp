@@ -25,7 +25,7 @@ class MapQuantizer {
   /// The integer unknowns of `space` (num_integers values: coordinates of features and singular arcs, translations
   /// of the cut) of the maps whose blocks have these integer lengths. `space` belongs to the map of the constructor.
   /// The blocks are laid out in the combed charts by a walk over the cut-open mesh; every way to a value must give the
-  /// same one, else Error(no_integer_grid_map) with the place. `lengths` satisfy the equations of all patches.
+  /// same one, else Error(no_integer_grid_map) with the place; so are lengths that check() does not accept.
   std::vector<double> integer_unknowns(const ConformingSpace& space, const std::vector<std::int64_t>& lengths) const;
 
  private:
