@@ -1,6 +1,8 @@
 // Objective of paths, and lower bounds.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "../../src/quantize/path_objective.hpp"
 #include "hexfield/quantize/exact_seamless.hpp"
 #include "hexfield/quantize/motorcycle_complex.hpp"
@@ -99,4 +101,22 @@ TEST(LowerBounds, ArcsKeepTheirLeastLength) {
     for (std::size_t a = 0; a < least.size(); ++a) EXPECT_GE(q.lengths[a], least[a]);
     EXPECT_EQ(q.method, method);
   }
+}
+
+// A bar of four hexes bent round half a circle: the map is straight, the curves along it turn three times by 45
+// degrees.
+TEST(LowerBounds, ArcsKnowHowFarTheyTurnInSpace) {
+  MappedMesh m = grid_of_blocks({{{1, 1}, {1, 1}, {1, 1, 1, 1}}}, [](int i, int j, int) { return i == 0 || j == 0; });
+  for (Vec3& p : m.mesh.points) {
+    const double angle = p.z() * std::numbers::pi / 4, radius = 3 + p.y();
+    p = Vec3(p.x(), radius * std::cos(angle), radius * std::sin(angle));
+  }
+  const BlockComplex c = complex_of(m);
+  int curved = 0;
+  for (const BlockComplex::Arc& arc : c.arcs) {
+    const bool is_curved = arc.turning > 0.01;
+    curved += is_curved;
+    EXPECT_NEAR(arc.turning, is_curved ? 3 * std::numbers::pi / 4 : 0, 1e-9);
+  }
+  EXPECT_EQ(curved, 8) << "six edges of the L, and two where the planes of its concave edge meet the boundary";
 }
