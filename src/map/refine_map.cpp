@@ -45,31 +45,51 @@ double length_in(const TetMesh& mesh, const CornerMap& map, TetId t, const EdgeK
       .norm();
 }
 
-/// Edges to split with their length in the map, the longest first.
-std::vector<std::pair<double, EdgeKey>> edges_to_split(const FieldResult& field, const CornerMap& map,
-                                                       const std::vector<TetId>& blocking) {
-  const Constrained constrained(field);
-  std::map<EdgeKey, double> found;
-  for (TetId t : blocking) {
-    const auto& v = field.mesh.vertices(t);
-    EdgeKey longest{};
-    double most = -1;
-    bool bridge = false;
-    for (const auto& pair : tet_edge_vertices) {
-      const EdgeKey e = edge_key(v[static_cast<std::size_t>(pair[0])], v[static_cast<std::size_t>(pair[1])]);
-      const double length = length_in(field.mesh, map, t, e);
-      if (length > most) most = length, longest = e;
-      if (!constrained.bridges(e)) continue;
-      bridge = true;
-      found.emplace(e, length);
-    }
-    if (!bridge) found.emplace(longest, most);
+using Lengths = std::map<EdgeKey, double>;
+
+EdgeKey edge_of(const TetMesh& mesh, TetId t, std::size_t e) {
+  const auto& v = mesh.vertices(t);
+  return edge_key(v[static_cast<std::size_t>(tet_edge_vertices[e][0])],
+                  v[static_cast<std::size_t>(tet_edge_vertices[e][1])]);
+}
+
+/// Adds the bridges of a tet; false when it has none.
+bool add_bridges(const TetMesh& mesh, const CornerMap& map, const Constrained& constrained, TetId t, Lengths& found) {
+  bool any = false;
+  for (std::size_t e = 0; e < 6; ++e) {
+    const EdgeKey edge = edge_of(mesh, t, e);
+    if (!constrained.bridges(edge)) continue;
+    found.emplace(edge, length_in(mesh, map, t, edge));
+    any = true;
   }
+  return any;
+}
+
+void add_longest(const TetMesh& mesh, const CornerMap& map, TetId t, Lengths& found) {
+  std::pair<double, EdgeKey> longest{-1, {}};
+  for (std::size_t e = 0; e < 6; ++e) {
+    const EdgeKey edge = edge_of(mesh, t, e);
+    const double length = length_in(mesh, map, t, edge);
+    if (length > longest.first) longest = {length, edge};
+  }
+  found.emplace(longest.second, longest.first);
+}
+
+/// The longest edge first.
+int split(FieldResult& field, const std::vector<CornerMap*>& maps, const Lengths& edges) {
   std::vector<std::pair<double, EdgeKey>> sorted;
-  for (const auto& [e, length] : found) sorted.emplace_back(length, e);
-  std::sort(sorted.begin(), sorted.end(),
-            [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
-  return sorted;
+  for (const auto& [e, length] : edges) sorted.emplace_back(-length, e);
+  std::sort(sorted.begin(), sorted.end());
+  FieldAttribute frames(field.field);
+  FeatureAttribute features(field.features);
+  CodesAttribute codes(field.codes);
+  std::vector<MapAttribute> followers;
+  for (CornerMap* map : maps) followers.emplace_back(*map);
+  std::vector<MeshAttribute*> attributes = {&frames, &features, &codes};
+  for (MapAttribute& follower : followers) attributes.push_back(&follower);
+  for (const auto& entry : sorted) split_edge(field.mesh, entry.second[0], entry.second[1], attributes);
+  compact(field.mesh, attributes);
+  return static_cast<int>(sorted.size());
 }
 
 }  // namespace
@@ -105,19 +125,28 @@ void MapAttribute::on_compact(const std::vector<TetId>& new_tet) {
   map_.rotations.resize(kept);
 }
 
+int split_bridges(FieldResult& field, const std::vector<CornerMap*>& maps) {
+  const Constrained constrained(field);
+  Lengths found;
+  for (std::size_t t = 0; t < field.mesh.num_tets(); ++t)
+    add_bridges(field.mesh, *maps.front(), constrained, TetId(static_cast<std::int64_t>(t)), found);
+  return split(field, maps, found);
+}
+
 int refine_at_blocking_tets(FieldResult& field, const std::vector<CornerMap*>& maps,
                             const std::vector<TetId>& blocking) {
-  const auto edges = edges_to_split(field, *maps.front(), blocking);
-  FieldAttribute frames(field.field);
-  FeatureAttribute features(field.features);
-  CodesAttribute codes(field.codes);
-  std::vector<MapAttribute> followers;
-  for (CornerMap* map : maps) followers.emplace_back(*map);
-  std::vector<MeshAttribute*> attributes = {&frames, &features, &codes};
-  for (MapAttribute& follower : followers) attributes.push_back(&follower);
-  for (const auto& entry : edges) split_edge(field.mesh, entry.second[0], entry.second[1], attributes);
-  compact(field.mesh, attributes);
-  return static_cast<int>(edges.size());
+  const TetMesh& mesh = field.mesh;
+  const Constrained constrained(field);
+  Lengths found;
+  std::vector<char> near(mesh.num_vertices(), 0);
+  for (TetId t : blocking) {
+    for (VertexId v : mesh.vertices(t)) near[v.index()] = 1;
+    if (!add_bridges(mesh, *maps.front(), constrained, t, found)) add_longest(mesh, *maps.front(), t, found);
+  }
+  for (std::size_t t = 0; t < mesh.num_tets(); ++t)
+    if (std::any_of(mesh.tets[t].begin(), mesh.tets[t].end(), [&](VertexId v) { return near[v.index()] != 0; }))
+      add_bridges(mesh, *maps.front(), constrained, TetId(static_cast<std::int64_t>(t)), found);
+  return split(field, maps, found);
 }
 
 }  // namespace hexfield

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collective.hpp"
 #include "hexfield/base/agree.hpp"
@@ -13,7 +14,8 @@ namespace hexfield {
 namespace {
 
 constexpr int untangling_rounds = 30;
-constexpr int max_newton_steps = 120;
+constexpr int max_newton_steps = 60;
+constexpr int max_minimisations = 12;
 
 /// Share in the total volume, at least that of a mean tet.
 std::vector<double> raised_weights(const MapProblem& problem) {
@@ -52,10 +54,14 @@ SeamlessResult relax_seamless_map(MPI_Comm comm, const TetMesh& mesh, const Feat
     solve::NewtonOptions newton;
     newton.preconditioner = solve::Preconditioner::cholesky;
     newton.max_iterations = max_newton_steps;
-    // The gradient of a start with thin tets is huge, so it measures nothing.
-    newton.gradient_tolerance = 0;
-    newton.decrease_tolerance = 1e-8;
-    monitor.minimise(comm, terms, y.get(), newton, "seamless map", {});
+    // Tolerances are relative to the start, where the barrier of the thinnest tets may be many orders above the rest:
+    // each time it falls by as many, they are taken anew.
+    double before = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < max_minimisations; ++k) {
+      const double energy_now = monitor.minimise(comm, terms, y.get(), newton, "seamless map", {}).energy;
+      if (energy_now > 0.5 * before) break;
+      before = energy_now;
+    }
     unknowns = problem.gather(y.get(), {});
   }
   SeamlessResult result;

@@ -97,6 +97,13 @@ void judge_igm(RunState& state) {
   state.report["igm"] = map_json(igm.report);
   state.report["igm"]["newton_steps"] = igm.newton_steps;
   state.report["igm"]["linear_iterations"] = igm.linear_iterations;
+  for (const SolveRecord& s : igm.solves)
+    state.report["igm"]["solves"].push_back({{"what", s.what},
+                                             {"newton_steps", s.newton_steps},
+                                             {"linear_iterations", s.linear_iterations},
+                                             {"seconds", s.seconds},
+                                             {"inverted", s.inverted},
+                                             {"wrong_index", s.wrong_edges}});
   const bool valid = igm.report.valid() && igm.quantization_valid;
   state.report["quantization"] = quantization_json(state.quantization);
   state.report["quantization"]["valid"] = igm.quantization_valid;
@@ -106,7 +113,12 @@ void judge_igm(RunState& state) {
   std::vector<Vec3> places = igm.where;
   for (const Vec3& p : note_map_culprits(state, igm.report)) places.push_back(p);
   state.culprits.places = igm.where;
-  const std::string why = igm.reason.empty() ? map_sentence(state, igm.report) : igm.reason;
+  std::string why = igm.reason.empty() ? map_sentence(state, igm.report) : igm.reason;
+  const std::string spacing = spacing_near(state.quantization, igm.where);
+  if (state.quantization.kind != "rounding" && !spacing.empty()) {
+    if (why.ends_with('.')) why.pop_back();
+    why += ": t" + spacing.substr(1);
+  }
   throw Error(ExitCode::no_integer_grid_map,
               fmt::format("There is no valid {}: {}{}", igm.quantization_valid ? "integer-grid map" : "quantization",
                           why, why.ends_with('.') ? "" : "."),

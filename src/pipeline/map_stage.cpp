@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
+#include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 
 #include "hexfield/base/error.hpp"
 #include "hexfield/io/checkpoint_values.hpp"
@@ -36,21 +39,32 @@ FrameField field_of_map(const TetMesh& mesh, const SeamlessMap& map) {
   return field;
 }
 
-/// Where a file lists no features, the edges of the boundary that its map bends are curves, so that the hexes keep
-/// them.
-Features tagged(const TetMesh& mesh, Features features, const EdgeCodes& codes) {
-  if (features.points.empty() && features.edges.empty() && features.faces.empty()) {
-    for (std::size_t i = 0; i < 4 * mesh.num_tets(); ++i) {
-      const HalfFaceId h{static_cast<std::int64_t>(i)};
-      if (!mesh.is_boundary(h)) continue;
-      const auto v = mesh.face_vertices(h);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const EdgeKey edge = edge_key(v[k], v[(k + 1) % 3]);
-        if (codes.count(edge) != 0) features.edges[edge] = 1;
-      }
+Vec3 unit_normal(const TetMesh& mesh, HalfFaceId h) {
+  const auto v = mesh.face_vertices(h);
+  return (mesh.point(v[1]) - mesh.point(v[0])).cross(mesh.point(v[2]) - mesh.point(v[0])).normalized();
+}
+
+/// The boundary is a feature, in the colour of the listed features: a curve between two colours would be one that the
+/// map knows nothing of. Where a file lists none at all, the edges of the boundary that are sharper than `degrees` and
+/// that its map bends are curves, so that the hexes keep them.
+Features tagged(const TetMesh& mesh, Features features, const EdgeCodes& codes, double degrees) {
+  const bool none = features.points.empty() && features.edges.empty() && features.faces.empty();
+  std::map<EdgeKey, Vec3> first_normal;
+  for (std::size_t i = 0; i < 4 * mesh.num_tets(); ++i) {
+    const HalfFaceId h{static_cast<std::int64_t>(i)};
+    if (!mesh.is_boundary(h)) continue;
+    features.faces.emplace(mesh.key(h), 1);
+    if (!none) continue;
+    const auto v = mesh.face_vertices(h);
+    const Vec3 normal = unit_normal(mesh, h);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const EdgeKey edge = edge_key(v[k], v[(k + 1) % 3]);
+      const auto [other, fresh] = first_normal.emplace(edge, normal);
+      if (fresh || codes.count(edge) == 0) continue;
+      if (other->second.dot(normal) < std::cos(degrees * std::numbers::pi / 180)) features.edges[edge] = 1;
     }
   }
-  // With curves or without: none is added by angle, the map would not be aligned with it.
+  // None is added by angle, for the same reason.
   complete_features(mesh, features, 180);
   return features;
 }
@@ -66,7 +80,7 @@ void read_map(RunState& state) {
   FieldResult& f = state.field;
   f.mesh = std::move(input.mesh);
   f.codes = codes_of_map(f.mesh, input.map);
-  f.features = tagged(f.mesh, std::move(input.features), f.codes);
+  f.features = tagged(f.mesh, std::move(input.features), f.codes, state.options.feature_angle);
   f.field = field_of_map(f.mesh, input.map);
   state.seamless.report = verify_map(f.mesh, f.features, f.codes, input.map);
   state.seamless.map = std::move(input.map);

@@ -138,7 +138,8 @@ std::optional<std::string> write_map(const RunState& state) {
 
 }  // namespace
 
-void write_results(const RunState& state, bool failed) {
+void write_results(const RunState& state, const Outcome& outcome) {
+  const bool failed = outcome.code != ExitCode::success && outcome.code != ExitCode::stopped;
   const fs::path& directory = state.options.output;
   std::set<std::string> written;
   if (!state.hexes.hexes.empty()) {
@@ -168,7 +169,7 @@ void write_results(const RunState& state, bool failed) {
     write_blocks(state);
     written.insert("blocks.vtk");
   }
-  if (const auto name = failed ? std::nullopt : write_map(state)) written.insert(*name);
+  if (const auto name = outcome.code == ExitCode::success ? write_map(state) : std::nullopt) written.insert(*name);
   if (failed && !state.culprits.empty()) {
     write_why(state);
     written.insert("why.vtk");

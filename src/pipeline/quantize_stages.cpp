@@ -123,6 +123,9 @@ void quantize(RunState& state, const ConformingSpace& space, double hexes) {
     result.notes.push_back(
         fmt::format("{} found no integers: every arc is at least 1 instead.", state.options.quantizer));
   result.unknowns = quantizer.integer_unknowns(space, result.integers.lengths);
+  result.wanted.clear();
+  for (std::size_t a = 0; a < complex.arcs.size(); ++a)
+    result.wanted.push_back(result.integers.scale * complex.length(a));
   result.nodes = static_cast<std::int64_t>(complex.nodes.size());
   result.arcs = static_cast<std::int64_t>(complex.arcs.size());
   result.patches = static_cast<std::int64_t>(complex.patches.size());
@@ -156,10 +159,14 @@ class IgmStage {
  private:
   static constexpr int max_targets = 3;
   static constexpr double more_hexes = 1.4;
-  static constexpr int max_refinements = 5;
+  static constexpr int max_refinements = 3;
 
   bool root() const { return state_.team.is_root(); }
-  void note(std::string sentence) { state_.quantization.notes.push_back(std::move(sentence)); }
+  void note(std::string sentence) {
+    if (!root() || sentence.empty()) return;
+    state_.log.info(sentence);
+    state_.quantization.notes.push_back(std::move(sentence));
+  }
 
   bool solve(const IgmOptions& options) {
     const FieldResult& f = state_.field;
@@ -167,6 +174,7 @@ class IgmStage {
                                                 options, control_);
     result.newton_steps += state_.igm.newton_steps;
     result.linear_iterations += state_.igm.linear_iterations;
+    result.solves.insert(result.solves.begin(), state_.igm.solves.begin(), state_.igm.solves.end());
     state_.igm = std::move(result);
     return valid(state_.igm);
   }
@@ -192,9 +200,11 @@ class IgmStage {
     };
     for (int round = 0;; ++round) {
       if (solve(options)) return true;
-      if (round == max_refinements || state_.igm.report.inverted.empty()) return false;
+      if (round == max_refinements || state_.igm.report.inverted.empty()) break;
       state_.team.on_root([&] { refine(); });
     }
+    if (root()) note(spacing_near(state_.quantization, state_.igm.where));
+    return false;
   }
 
   // The integers are taken over through the map of the old mesh that has them.
@@ -209,7 +219,10 @@ class IgmStage {
       for (Vec3& p : goal.uvw[t]) p = octahedral::apply(before.cut.gauges[t], p);
     goal.rotations = state_.seamless.map.rotations;
     const std::size_t blocking = state_.igm.report.inverted.size();
-    const int splits = refine_at_blocking_tets(f, {&state_.seamless.map, &goal}, state_.igm.report.inverted);
+    const std::vector<CornerMap*> maps = {&state_.seamless.map, &goal};
+    // Bridges first, everywhere: near one that blocks now there is one that blocks next.
+    int splits = state_.refined ? 0 : split_bridges(f, maps);
+    if (splits == 0) splits = refine_at_blocking_tets(f, maps, state_.igm.report.inverted);
     const ConformingSpace after = space_of(state_);
     y = unknowns_of(f.mesh, after, goal);
     q.unknowns.assign(y.begin() + static_cast<std::ptrdiff_t>(after.num_reals), y.end());

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -43,6 +45,32 @@ BlockPicture picture_of(const BlockComplex& complex, const std::vector<std::int6
   return picture;
 }
 
+std::string spacing_near(const QuantizeResult& result, const std::vector<Vec3>& places) {
+  const BlockPicture& picture = result.picture;
+  double worst = -1;
+  std::string sentence;
+  for (const Vec3& place : places) {
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < picture.lines.size(); ++i) {
+      const auto& [a, b] = picture.lines[i];
+      const Vec3 middle =
+          0.5 * (picture.points[static_cast<std::size_t>(a)] + picture.points[static_cast<std::size_t>(b)]);
+      const double distance = (middle - place).squaredNorm();
+      if (distance < least) least = distance, nearest = i;
+    }
+    if (picture.lines.empty()) return "";
+    const auto arc = static_cast<std::size_t>(picture.arcs[nearest][0]);
+    const auto length = static_cast<double>(picture.arcs[nearest][3]);
+    if (std::abs(length - result.wanted[arc]) <= worst) continue;
+    worst = std::abs(length - result.wanted[arc]);
+    const Vec3& p = picture.points[static_cast<std::size_t>(picture.lines[nearest][0])];
+    sentence = fmt::format("The arc at ({:.6g}, {:.6g}, {:.6g}) is to hold {} hexes where the map has room for {:.3g}.",
+                           p.x(), p.y(), p.z(), length, result.wanted[arc]);
+  }
+  return sentence;
+}
+
 NamedArrays pack(const QuantizeResult& result) {
   NamedArrays arrays;
   const Quantization& q = result.integers;
@@ -59,6 +87,7 @@ NamedArrays pack(const QuantizeResult& result) {
              1);
   arrays.own("quantize_measures", std::vector<double>{result.largest_move, q.scale, q.objective}, 1);
   arrays.view<std::int64_t>("quantize_lengths", q.lengths, 1);
+  arrays.view<double>("quantize_wanted", result.wanted, 1);
   arrays.view<double>("quantize_unknowns", result.unknowns, 1);
   arrays.view("quantize_points", numbers<double>(result.picture.points), 3);
   arrays.view("quantize_triangles", numbers<std::int32_t>(result.picture.triangles), 3);
@@ -92,6 +121,7 @@ QuantizeResult unpack_quantize(const NamedArrays& arrays) {
   q.separations = static_cast<std::size_t>(counts[7]), q.sheets = static_cast<std::size_t>(counts[8]);
   result.largest_move = measures[0], q.scale = measures[1], q.objective = measures[2];
   take<std::int64_t, std::int64_t>(arrays, "quantize_lengths", q.lengths);
+  take<double, double>(arrays, "quantize_wanted", result.wanted);
   take<double, double>(arrays, "quantize_unknowns", result.unknowns);
   take<Vec3, double>(arrays, "quantize_points", result.picture.points);
   take<std::array<std::int32_t, 3>, std::int32_t>(arrays, "quantize_triangles", result.picture.triangles);

@@ -26,6 +26,7 @@ struct BlockPicture {
 struct QuantizeResult {
   std::string kind = "rounding";  ///< "pump", "ilp", "positive" (every arc at least 1), or "rounding": none yet
   Quantization integers;
+  std::vector<double> wanted;    ///< per arc: the scaled length in the map
   std::vector<double> unknowns;  ///< integer unknowns of the conforming space of the exact map
   double largest_move = 0;       ///< of an edge vector when the map was made exact, parameter units
   std::int64_t nodes = 0, arcs = 0, patches = 0, blocks = 0, euler = 0;
@@ -33,6 +34,10 @@ struct QuantizeResult {
   std::vector<std::string> notes;         ///< sentences on further tries and fallbacks
   BlockPicture picture;
 };
+
+/// The arc next to one of the places whose integer is furthest from the wanted length, as a sentence; empty without
+/// arcs or places.
+std::string spacing_near(const QuantizeResult& result, const std::vector<Vec3>& places);
 
 BlockPicture picture_of(const BlockComplex& complex, const std::vector<std::int64_t>& lengths);
 

@@ -322,7 +322,7 @@ Outcome Runner::finish(Outcome outcome, const std::vector<Vec3>& where) {
     team_.on_root([&] {
       const bool failed = outcome.code != ExitCode::success && outcome.code != ExitCode::stopped;
       if (failed && state_.culprits.empty()) state_.culprits.places = where;
-      write_results(state_, failed);
+      write_results(state_, outcome);
       state_.tries.push_back(try_json(state_.attempt, outcome.code, outcome.sentence));
       close_report(state_.report, state_.tries, outcome, current_, where);
       write_text(options_.output / "report.json", state_.report.dump(2) + "\n");

@@ -41,6 +41,12 @@ TEST(RefineMap, KeepsTheMapAndWhatBelongsToIt) {
     for (Vec3& p : corners) p *= 2;
   std::vector<TetId> all;
   for (std::size_t t = 0; t < m.mesh.num_tets(); ++t) all.emplace_back(static_cast<std::int64_t>(t));
+  FieldResult again = field_of(m);
+  CornerMap other = m.map;
+  EXPECT_EQ(split_bridges(again, {&other}), 10);
+  EXPECT_TRUE(check(again.mesh, again.features).empty());
+  EXPECT_TRUE(verify_map(again.mesh, again.features, again.codes, other).valid());
+  EXPECT_EQ(split_bridges(again, {&other}), 0);
   const int splits = refine_at_blocking_tets(f, {&map, &doubled}, all);
   // Of five cells of one layer: the diagonal of each cell through its inside, and nothing but it, is a bridge, and so
   // is the diagonal of each of the five walls between them.

@@ -18,6 +18,7 @@ TEST(QuantizeValues, ComeBackBitForBit) {
   result.integers.separations = 4;
   result.integers.sheets = 5;
   result.integers.proven_optimal = true;
+  result.wanted = {2.9, 0.2, 0.3};
   result.unknowns = {1, 2, 0.1};
   result.largest_move = 1e-12;
   result.nodes = 8, result.arcs = 12, result.patches = 6, result.blocks = 1, result.euler = 1;
@@ -40,6 +41,7 @@ TEST(QuantizeValues, ComeBackBitForBit) {
   EXPECT_EQ(back.integers.separations, 4u);
   EXPECT_EQ(back.integers.sheets, 5u);
   EXPECT_TRUE(back.integers.proven_optimal);
+  EXPECT_EQ(back.wanted, result.wanted);
   EXPECT_EQ(back.unknowns, result.unknowns);
   EXPECT_EQ(back.largest_move, result.largest_move);
   EXPECT_EQ(back.nodes, 8);
@@ -54,6 +56,13 @@ TEST(QuantizeValues, ComeBackBitForBit) {
   EXPECT_EQ(back.picture.walls, result.picture.walls);
   EXPECT_EQ(back.picture.lines, result.picture.lines);
   EXPECT_EQ(back.picture.arcs, result.picture.arcs);
+
+  // Next to the first place is arc 1 (0.2 off), next to the second arc 0 (0.1 off).
+  EXPECT_EQ(spacing_near(back, {Vec3(0.5, 1, 1.5), Vec3(4, 5, 6)}),
+            "The arc at (0.1, 0.2, 0.3) is to hold 0 hexes where the map has room for 0.2.");
+  EXPECT_EQ(spacing_near(back, {Vec3(4, 5, 6)}),
+            "The arc at (1, 2, 3) is to hold 3 hexes where the map has room for 2.9.");
+  EXPECT_EQ(spacing_near(back, {}), "");
 
   NamedArrays spoilt = arrays;
   spoilt.own_text("quantize_words", "{}");

@@ -20,11 +20,15 @@ class MapAttribute : public MeshAttribute {
   CornerMap& map_;
 };
 
-/// Splits where a map could not be deformed as its constraints ask (spec-quantization 6, "refining tets that block").
-/// Of every tet in `blocking` all regular edges between two vertices that lie on features, singular edges or the
-/// boundary, and are edges of no such line or face, get a free vertex; of a tet without such an edge the longest edge
-/// in the first map is split, of whatever kind. `field` is the mesh with all that belongs to it, `maps` are maps of
-/// it; all follow. No tombstones before or after. Returns the number of splits. Not collective.
+/// Splits every bridge: an edge between two vertices that lie on features, singular edges or the boundary, which is no
+/// edge of such a line or face. Its ends can only move with what they lie on, so a bridge ties two constraints to each
+/// other; the new vertex is free. `field` is the mesh with all that belongs to it, `maps` are maps of it; all follow.
+/// No tombstones before or after. Returns the number of splits. Not collective.
+int split_bridges(FieldResult& field, const std::vector<CornerMap*>& maps);
+
+/// Splits where a map could not be deformed as its constraints ask (spec-quantization 6, "refining tets that block"):
+/// all bridges of the tets that share a vertex with a tet in `blocking`, and of every tet in it that has none the
+/// longest edge in the first map, of whatever kind. Otherwise as split_bridges().
 int refine_at_blocking_tets(FieldResult& field, const std::vector<CornerMap*>& maps,
                             const std::vector<TetId>& blocking);
 
