@@ -65,12 +65,12 @@ TEST(SheetProgram, IsNotWorseThanTheSearchFromEverySeed) {
                                         {"step", padded(hex_blocks({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}))}};
   for (const auto& [name, triangles] : eight_nodes())
     if (name != "(0,0,12)") meshes[name] = node_mesh(name);
+  int improvable = 0;
   for (const auto& [name, mesh] : meshes) {
     Searched searched(mesh);
     const int least = searched.least_by_seeds();
-    ASSERT_LT(least, 0) << name;
     const auto result = searched.by_program();
-    ASSERT_FALSE(result.sheets.empty()) << name;
+    ASSERT_EQ(result.sheets.empty(), least == 0) << name;
     int sum = 0;
     for (const auto& sheet : result.sheets) {
       EXPECT_GE(sheet.change, least) << name;
@@ -78,7 +78,9 @@ TEST(SheetProgram, IsNotWorseThanTheSearchFromEverySeed) {
       sum += sheet.change;
     }
     EXPECT_LE(sum, least) << name;
+    improvable += least < 0;
   }
+  EXPECT_GE(improvable, 7);
 }
 
 TEST(SheetProgram, ProvesThatThereIsNoSheet) {
