@@ -105,7 +105,7 @@ def boxes():
         objective = 4 * (0.1 ** 2 + 0.2 ** 2 + 0.6 ** 2)
         yield from check(name, abs(q["objective"] - objective) < 1e-9, f"objective {q['objective']}, not {objective}")
         yield from check(name, (q["nodes"], q["arcs"], q["patches"], q["blocks"], q["euler"]) == (8, 12, 6, 1, 1), q)
-        yield from check(name, q["sheets"] >= 1, q)
+        yield from check(name, quantizer == "ilp" or q["sheets"] >= 1, q)
         yield from check(name, set(q["seconds"]) == {"exact", "complex", "integers"}, q["seconds"])
         for written in ("hex.vtk", "blocks.vtk", "tets.vtk", "singularities.vtk", "run.h5"):
             yield from check(name, (out / written).exists(), f"no {written}")
