@@ -5,6 +5,7 @@
 #include "hexfield/base/agree.hpp"
 #include "hexfield/map/compute_map.hpp"
 #include "hexfield/map/verify.hpp"
+#include "hexfield/mesh/quality.hpp"
 #include "integer_map.hpp"
 #include "rounding.hpp"
 
@@ -30,7 +31,7 @@ Seamless prepare(const TetMesh& mesh, const Features& features, const EdgeCodes&
   s.space = conforming_space(mesh, cut_graph(mesh, matchings_of(map), singular_edges(codes)), s.alignments);
   s.unknowns = unknowns_of(mesh, s.space, map);
   s.map_volume = parametric_volume(map);
-  for (std::size_t t = 0; t < mesh.num_tets(); ++t) s.domain_volume += signed_volume6(mesh, TetId(t)) / 6;
+  s.domain_volume = total_volume(mesh);
   s.hexes = options.edge_length > 0 ? s.domain_volume / std::pow(options.edge_length, 3) : options.target_hexes;
   return s;
 }

@@ -1,10 +1,10 @@
 #include <fmt/core.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "collective.hpp"
 #include "hexfield/base/agree.hpp"
+#include "hexfield/base/stopwatch.hpp"
 #include "hexfield/field/constraints.hpp"
 #include "hexfield/map/compute_map.hpp"
 #include "hexfield/map/integrable_frames.hpp"
@@ -164,10 +164,9 @@ class Stage {
     const std::vector<double> zero(root() ? space_.num_unknowns() : 0, 0.0);
     const VecOwner y(problem.make_vector(zero, false));
     const solve::EnergyTerm* terms[] = {&energy};
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     const solve::NewtonResult result = solve::solve_linear(comm_, terms, y.get(), solve::Preconditioner::cholesky);
-    monitor_.note({"fit", 0, result.linear_iterations,
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    monitor_.note({"fit", 0, result.linear_iterations, seconds_since(start)});
     return problem.gather(y.get(), {});
   }
 

@@ -2,13 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "hexfield/base/agree.hpp"
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/base/petsc.hpp"
+#include "hexfield/base/stopwatch.hpp"
 
 namespace hexfield::integrable {
 namespace {
@@ -33,10 +33,6 @@ class Values {
   double* data_ = nullptr;
   PetscInt size_ = 0;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // Runs a callback of PETSc; its exceptions must not pass through C code.
 template <class Work>
@@ -179,7 +175,7 @@ bool Newton::search(const IntegrableStage& stage, double slope, std::vector<doub
 
 IntegrableStageReport Newton::run(const IntegrableStage& stage, double tolerance, const Control& control,
                                   std::vector<double>& frames) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   IntegrableStageReport report;
   report.stage = stage;
   if (options_.refresh_scale) problem_.refresh_scales(frames);

@@ -5,16 +5,9 @@
 namespace hexfield {
 namespace {
 
+using solve::flat;
 using solve::Mat9;
 using solve::Vec9;
-
-// Row-major, as in solve/kernels.hpp.
-Vec9 flat(const Mat3& m) {
-  Vec9 v;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) v[3 * i + j] = m(i, j);
-  return v;
-}
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "hexfield/base/agree.hpp"
 #include "hexfield/base/exact_sum.hpp"
 #include "hexfield/base/petsc.hpp"
+#include "hexfield/mesh/quality.hpp"
 
 namespace hexfield {
 namespace {
@@ -74,8 +75,7 @@ MapProblem::MapProblem(MPI_Comm comm, const TetMesh& mesh, const ConformingSpace
         solve::gradient_operator({local.point(v[0]), local.point(v[1]), local.point(v[2]), local.point(v[3])});
   }
   // Summed on rank 0 in global order: the same for any number of ranks.
-  if (rank_of(comm_) == 0)
-    for (std::size_t t = 0; t < mesh.num_tets(); ++t) volume_sum += signed_volume6(mesh, TetId(t)) / 6;
+  if (rank_of(comm_) == 0) volume_sum = hexfield::total_volume(mesh);
   MPI_Bcast(&volume_sum, 1, MPI_DOUBLE, 0, comm_);
   total_volume_ = volume_sum;
 }

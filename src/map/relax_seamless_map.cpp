@@ -6,6 +6,7 @@
 #include "hexfield/base/agree.hpp"
 #include "hexfield/map/compute_map.hpp"
 #include "hexfield/map/verify.hpp"
+#include "hexfield/mesh/quality.hpp"
 #include "map_problem.hpp"
 #include "solve_monitor.hpp"
 #include "untangle.hpp"
@@ -39,9 +40,7 @@ SeamlessResult relax_seamless_map(MPI_Comm comm, const TetMesh& mesh, const Feat
     space = conforming_space(mesh, cut_graph(mesh, matchings_of(map), singular_edges(codes)),
                              alignments_of_map(mesh, features, codes, map));
     unknowns = unknowns_of(mesh, space, map);
-    double volume = 0;
-    for (std::size_t t = 0; t < mesh.num_tets(); ++t) volume += signed_volume6(mesh, TetId(t)) / 6;
-    edge = std::cbrt(volume / std::max(parametric_volume(map), 1e-300));
+    edge = std::cbrt(total_volume(mesh) / std::max(parametric_volume(map), 1e-300));
   });
   broadcast(comm, edge);
   const MapProblem problem(comm, mesh, space);

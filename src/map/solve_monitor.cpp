@@ -1,11 +1,11 @@
 #include "solve_monitor.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "collective.hpp"
 #include "hexfield/base/error.hpp"
 #include "hexfield/base/petsc.hpp"
+#include "hexfield/base/stopwatch.hpp"
 
 namespace hexfield {
 namespace {
@@ -82,10 +82,9 @@ solve::NewtonResult SolveMonitor::minimise(MPI_Comm comm, std::span<const solve:
     stop = control_.stop_requested && control_.stop_requested();
     return !stop;
   };
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   const solve::NewtonResult result = solve::minimise(comm, terms, y, options);
-  note({what, result.iterations - behind, result.linear_iterations,
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+  note({what, result.iterations - behind, result.linear_iterations, seconds_since(start)});
   if (stop) throw Error(ExitCode::stopped, "The run was stopped: " + what + ".");
   return result;
 }

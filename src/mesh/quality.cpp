@@ -23,4 +23,11 @@ double tet_distortion(const TetMesh& mesh, TetId t) {
 
 double log_energy(double distortion) { return std::log(distortion) / 3; }
 
+double total_volume(const TetMesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh.num_tets(); ++i)
+    if (const TetId t(static_cast<std::int64_t>(i)); mesh.alive(t)) sum += signed_volume6(mesh, t) / 6;
+  return sum;
+}
+
 }  // namespace hexfield

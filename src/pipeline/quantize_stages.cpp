@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "hexfield/base/error.hpp"
+#include "hexfield/base/stopwatch.hpp"
 #include "hexfield/io/checkpoint_values.hpp"
 #include "hexfield/map/refine_map.hpp"
 #include "hexfield/map/verify.hpp"
@@ -14,10 +14,6 @@
 
 namespace hexfield {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::string name_of(QuantizeMethod method) {
   switch (method) {

@@ -13,10 +13,6 @@ namespace {
 
 constexpr int time_is_up = 1000;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// The rings of one stage by the name of the iterate.
 using Rings = std::map<std::string, IterateRing>;
 

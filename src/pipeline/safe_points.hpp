@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -8,6 +7,7 @@
 
 #include "hexfield/base/control.hpp"
 #include "hexfield/base/progress.hpp"
+#include "hexfield/base/stopwatch.hpp"
 #include "hexfield/io/checkpoint.hpp"
 #include "team.hpp"
 
@@ -47,7 +47,6 @@ class SafePoints {
   IterateRing& ring_on_root(const std::string& name, const std::string& basis);
   void offer(IterateRing& ring, const std::function<std::vector<double>()>& gather);
 
-  using Clock = std::chrono::steady_clock;
   Team& team_;
   double time_limit_;
   double checkpoint_interval_;

@@ -14,6 +14,7 @@
 #include "hexfield/mesh/features.hpp"
 #include "hexfield/mesh/input_check.hpp"
 #include "hexfield/mesh/manifold.hpp"
+#include "hexfield/mesh/quality.hpp"
 #include "repair_values.hpp"
 
 namespace hexfield {
@@ -21,10 +22,7 @@ namespace hexfield {
 double wanted_hexes(const RunState& state) {
   double wanted = state.options.target_hexes;
   if (state.options.edge_length > 0) {
-    const TetMesh& mesh = state.field.mesh;
-    double volume = 0;
-    for (std::size_t t = 0; t < mesh.num_tets(); ++t) volume += signed_volume6(mesh, TetId(t)) / 6;
-    wanted = std::max(1.0, volume / std::pow(state.options.edge_length, 3));
+    wanted = std::max(1.0, total_volume(state.field.mesh) / std::pow(state.options.edge_length, 3));
   }
   MPI_Bcast(&wanted, 1, MPI_DOUBLE, 0, state.team.comm());
   return wanted;

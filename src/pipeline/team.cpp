@@ -10,12 +10,12 @@
 #include "hexfield/base/agree.hpp"
 #include "hexfield/base/error.hpp"
 #include "hexfield/base/signals.hpp"
+#include "hexfield/base/stopwatch.hpp"
 
 namespace hexfield {
 namespace {
 
 constexpr int stop_tag = 1;
-using Clock = std::chrono::steady_clock;
 
 void nap() { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
 
@@ -54,7 +54,7 @@ void Team::settle(std::exception_ptr mine) {
   for (int done = 0; done == 0;) {
     MPI_Test(&request, &done, MPI_STATUS_IGNORE);
     if (done != 0) break;
-    if (mine && std::chrono::duration<double>(Clock::now() - start).count() > patience) {
+    if (mine && seconds_since(start) > patience) {
       const Error error = error_of(mine);
       log_.say_alone(LogLevel::error, error.sentence());
       MPI_Abort(comm_, static_cast<int>(error.code()));

@@ -13,20 +13,6 @@ bool on_special_edge(const RepairState& state, VertexId v) {
   return false;
 }
 
-bool on_feature_face(const RepairState& state, VertexId v) {
-  for (TetId t : vertex_star(state.mesh, v))
-    for (int f = 0; f < 4; ++f)
-      if (state.mesh.vertices(t)[static_cast<std::size_t>(f)] != v && is_feature_face(state, HalfFaceId(t, f)))
-        return true;
-  return false;
-}
-
-bool in_feature_face(const RepairState& state, const EdgeKey& e) {
-  const EdgeRing ring = ring_of(state.mesh, e[0], e[1]);
-  return !ring.closed || std::any_of(ring.crossings.begin(), ring.crossings.end(),
-                                     [&](HalfFaceId h) { return is_feature_face(state, h); });
-}
-
 // Regular edges from v to something special, unless they run in a feature face to a vertex of that face only.
 int split_spokes(RepairState& state, VertexId v) {
   int splits = 0;

@@ -11,11 +11,6 @@ namespace {
 
 using octahedral::Label;
 
-bool in_feature_face(const RepairState& state, const EdgeRing& ring) {
-  return !ring.closed || std::any_of(ring.crossings.begin(), ring.crossings.end(),
-                                     [&](HalfFaceId h) { return is_feature_face(state, h); });
-}
-
 Spoke make_spoke(const RepairState& state, const EdgeKey& edge, VertexId centre) {
   Spoke spoke;
   spoke.end = edge[0] == centre ? edge[1] : edge[0];

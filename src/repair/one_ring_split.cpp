@@ -6,14 +6,6 @@
 namespace hexfield {
 namespace {
 
-bool on_feature_face(const RepairState& state, VertexId v) {
-  for (TetId t : vertex_star(state.mesh, v))
-    for (int f = 0; f < 4; ++f)
-      if (state.mesh.vertices(t)[static_cast<std::size_t>(f)] != v && is_feature_face(state, HalfFaceId(t, f)))
-        return true;
-  return false;
-}
-
 // What the rules ask of a vertex, looked at once.
 struct Mark {
   int special_edges = 0;

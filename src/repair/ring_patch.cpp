@@ -14,12 +14,6 @@ EdgeKey link_edge(const TetMesh& mesh, HalfFaceId h, VertexId v) {
   return edge_key(f[(i + 1) % 3], f[(i + 2) % 3]);
 }
 
-bool lies_in_feature_face(const RepairState& state, const EdgeKey& e) {
-  const EdgeRing ring = ring_of(state.mesh, e[0], e[1]);
-  return !ring.closed || std::any_of(ring.crossings.begin(), ring.crossings.end(),
-                                     [&](HalfFaceId h) { return is_feature_face(state, h); });
-}
-
 // The strip of link triangles of a path, with vertices told apart each time the strip comes back to them.
 class Strip {
  public:
@@ -80,12 +74,12 @@ class Strip {
   }
   bool is_plain(int n) const {
     const EdgeKey spoke = edge_key(v_, node(n));
-    return !is_special(state_, spoke) && !lies_in_feature_face(state_, spoke);
+    return !is_special(state_, spoke) && !in_feature_face(state_, spoke);
   }
   bool is_open(VertexId a, VertexId b) const {
     const HalfFaceId h = find_half_face(state_.mesh, face_key(v_, a, b));
     return !is_feature_face(state_, h) && !is_special(state_, edge_key(a, b)) &&
-           !lies_in_feature_face(state_, edge_key(a, b));
+           !in_feature_face(state_, edge_key(a, b));
   }
 
   const RepairState& state_;
@@ -102,7 +96,7 @@ std::vector<VertexId> split_chain(RepairState& state, VertexId v, const RingPath
     const HalfFaceId h = path.faces[k];
     const EdgeKey e = link_edge(state.mesh, h, v);
     if (e[0] == path.from || e[1] == path.from || e[0] == path.to || e[1] == path.to) return {};
-    if (is_special(state, e) || (lies_in_feature_face(state, e) && !is_feature_face(state, h))) return {};
+    if (is_special(state, e) || (in_feature_face(state, e) && !is_feature_face(state, h))) return {};
     crossed.push_back(e);
   }
   if (path.exit.valid()) {
@@ -127,7 +121,7 @@ std::optional<RingPatch> ring_patch(RepairState& state, VertexId v, const RingPa
   if (found.chain.empty() && path.to.valid() && flow == Flow::parallel && path.faces.empty()) {
     // Both spokes belong to one tet: its link edge gets the inner vertex.
     const EdgeKey e = edge_key(path.from, path.to);
-    if (!is_special(state, e) && !lies_in_feature_face(state, e))
+    if (!is_special(state, e) && !in_feature_face(state, e))
       found.chain = {path.from, split_edge(state, e[0], e[1]), path.to};
   }
   if (found.chain.empty()) found.chain = split_chain(state, v, path);

@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "hexfield/base/agree.hpp"
 #include "hexfield/base/error.hpp"
 #include "hexfield/base/parallel.hpp"
+#include "hexfield/base/stopwatch.hpp"
 #include "hexfield/field/align_field.hpp"
 #include "hexfield/field/constraints.hpp"
 #include "hexfield/field/matchings.hpp"
 #include "hexfield/field/presplit.hpp"
 #include "hexfield/field/singularity_graph.hpp"
+#include "hexfield/mesh/quality.hpp"
 #include "hexfield/repair/constrained_zippers.hpp"
 #include "hexfield/repair/edge_repair.hpp"
 #include "hexfield/repair/free_ends.hpp"
@@ -32,13 +33,6 @@ constexpr int relocation_sweeps = 50;  // spec-lmff section 4
 constexpr int remesh_sweeps = 10;
 constexpr int relocation_rings = 3;
 constexpr int final_sweeps = 100;
-
-double volume_of(const TetMesh& mesh) {
-  double sum = 0;
-  for (std::size_t i = 0; i < mesh.num_tets(); ++i)
-    if (const TetId t(static_cast<std::int64_t>(i)); mesh.alive(t)) sum += signed_volume6(mesh, t) / 6;
-  return sum;
-}
 
 std::vector<EdgeKey> special_edges(const RepairState& state) {
   std::vector<EdgeKey> edges;
@@ -89,7 +83,7 @@ Schedule::Schedule(RepairIterate& iterate, const FieldResult& input, const Repai
       control_(control),
       surface_(input.mesh, input.features),
       curves_(input.mesh, input.features),
-      volume_(volume_of(input.mesh)) {}
+      volume_(total_volume(input.mesh)) {}
 
 template <class Work>
 void Schedule::timed(const std::string& kind, const Work& work) {
@@ -97,9 +91,9 @@ void Schedule::timed(const std::string& kind, const Work& work) {
   if (control_.stop_requested && control_.stop_requested())
     throw Error(ExitCode::stopped, "The repair of the field was stopped.");
   if (control_.progress) control_.progress(kind, -1);
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   const long done = work();
-  iterate_.report.seconds[kind] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  iterate_.report.seconds[kind] += seconds_since(start);
   if (done > 0) iterate_.report.operations[kind] += done;
 }
 

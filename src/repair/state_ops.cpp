@@ -99,6 +99,23 @@ bool is_feature_face(const RepairState& state, HalfFaceId h) {
   return state.mesh.is_boundary(h) || state.features.faces.contains(state.mesh.key(h));
 }
 
+bool on_feature_face(const RepairState& state, VertexId v) {
+  for (TetId t : vertex_star(state.mesh, v))
+    for (int f = 0; f < 4; ++f)
+      if (state.mesh.vertices(t)[static_cast<std::size_t>(f)] != v && is_feature_face(state, HalfFaceId(t, f)))
+        return true;
+  return false;
+}
+
+bool in_feature_face(const RepairState& state, const EdgeRing& ring) {
+  return !ring.closed || std::any_of(ring.crossings.begin(), ring.crossings.end(),
+                                     [&](HalfFaceId h) { return is_feature_face(state, h); });
+}
+
+bool in_feature_face(const RepairState& state, const EdgeKey& edge) {
+  return in_feature_face(state, ring_of(state.mesh, edge[0], edge[1]));
+}
+
 bool is_special(const RepairState& state, const EdgeKey& edge) {
   return state.codes.contains(edge) || state.features.edges.contains(edge);
 }

@@ -11,14 +11,6 @@ NodeKind kind_of(const RepairState& state, VertexId v) {
   return classify_vertex(state.mesh, state.features, state.field, state.codes, v, singular_edges_at(state, v)).kind;
 }
 
-bool in_feature_surface(const RepairState& state, VertexId v) {
-  for (TetId t : vertex_star(state.mesh, v))
-    for (int f = 0; f < 4; ++f)
-      if (state.mesh.vertices(t)[static_cast<std::size_t>(f)] != v && is_feature_face(state, HalfFaceId(t, f)))
-        return true;
-  return false;
-}
-
 using RingOperation = bool (*)(RepairState&, VertexId, const RingScope&);
 
 VertexOperation with(RingOperation operation, const RingScope& scope) {
@@ -94,7 +86,7 @@ VertexScore score_of(RepairState& state, VertexId v, const Near& near) {
 std::vector<VertexOperation> vertex_operations(const RepairState& state, VertexId v, bool reversals) {
   const RingScope free, surface{RingTarget::surface_arc}, across{RingTarget::free_arc, true}, out{RingTarget::surface};
   std::vector<VertexOperation> order{with(detach_arc, free), with(detach_zipper, free)};
-  if (!in_feature_surface(state, v)) return order;
+  if (!on_feature_face(state, v)) return order;
   const bool boundary = on_boundary(state.mesh, v);
   if (boundary) order.push_back(with(detach_through, out));
   order.push_back(with(detach_arc, surface));

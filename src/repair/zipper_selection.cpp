@@ -12,15 +12,6 @@
 namespace hexfield {
 namespace {
 
-bool on_feature_face(const RepairState& state, VertexId v) {
-  for (TetId t : vertex_star(state.mesh, v))
-    for (int f = 0; f < 4; ++f)
-      if (const HalfFaceId h(t, f);
-          state.mesh.vertices(t)[static_cast<std::size_t>(f)] != v && is_feature_face(state, h))
-        return true;
-  return false;
-}
-
 // Inner edges of codes +1 and -1 by vertex, and all singular edges by vertex.
 class Net {
  public:

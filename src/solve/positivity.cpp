@@ -7,13 +7,6 @@
 namespace hexfield::solve {
 namespace {
 
-Vec9 flat(const Mat3& m) {
-  Vec9 v;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) v[3 * i + j] = m(i, j);
-  return v;
-}
-
 Mat3 symmetric_part(const Mat3& m) { return 0.5 * (m + m.transpose()); }
 
 double shortfall(double eigenvalue, double delta) { return std::max(0.0, delta - eigenvalue); }

@@ -7,13 +7,6 @@
 namespace hexfield::solve {
 namespace {
 
-Vec9 flat(const Mat3& m) {
-  Vec9 v;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) v[3 * i + j] = m(i, j);
-  return v;
-}
-
 Vec9 cofactor(const Mat3& j) {
   Mat3 c;
   for (int i = 0; i < 3; ++i) c.row(i) = j.row((i + 1) % 3).cross(j.row((i + 2) % 3));

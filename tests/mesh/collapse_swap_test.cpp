@@ -14,13 +14,6 @@ using hexfield::testing::kuhn_box;
 
 namespace {
 
-double volume(const TetMesh& mesh) {
-  double sum = 0;
-  for (std::size_t t = 0; t < mesh.num_tets(); ++t)
-    if (mesh.alive(TetId(t))) sum += signed_volume6(mesh, TetId(t)) / 6;
-  return sum;
-}
-
 void expect_rebuild_agrees(TetMesh mesh) {
   compact(mesh, {});
   const TetMesh rebuilt = build_tet_mesh(mesh.points, mesh.tets);
@@ -98,10 +91,10 @@ void try_edge_swap(TetMesh& mesh, const Features& features, std::mt19937& random
   const RingTriangulation t = fan(around.size(), walls, random);
   if (!swap_keeps_topology(mesh, features, ring, around, t, a, b) || !swap_keeps_positive(mesh, around, t, a, b))
     return;
-  const double before = volume(mesh);
+  const double before = total_volume(mesh);
   const bool flat = std::abs(before - 8) < 1e-9;
   swap_edge(mesh, seed, a, b, t, attributes);
-  EXPECT_TRUE(flat && std::abs(volume(mesh) - before) < 1e-11);
+  EXPECT_TRUE(flat && std::abs(total_volume(mesh) - before) < 1e-11);
   ++(walls.empty() ? counts.edge_swaps : counts.flips);
 }
 
@@ -166,7 +159,7 @@ TEST(CollapseSwap, HundredsOfRandomEditsKeepMeshAndFeatures) {
     for (int i = 0; i < 100; ++i) random_edit(mesh, features, random, {&attribute}, counts);
     ASSERT_TRUE(check(mesh).empty());
     ASSERT_TRUE(check(mesh, features).empty()) << check(mesh, features)[0].sentence;
-    EXPECT_NEAR(volume(mesh), 8, 1e-10);
+    EXPECT_NEAR(total_volume(mesh), 8, 1e-10);
     std::set<int> surfaces, curves;
     for (const auto& [f, colour] : before.faces) surfaces.insert(colour);
     for (const auto& [e, colour] : before.edges) curves.insert(colour);

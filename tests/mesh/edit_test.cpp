@@ -6,19 +6,14 @@
 #include <random>
 #include <set>
 
+#include "hexfield/mesh/quality.hpp"
 #include "support/meshes.hpp"
 
 using namespace hexfield;
 using hexfield::testing::kuhn_box;
+using hexfield::testing::surface_euler_characteristic;
 
 namespace {
-
-double volume(const TetMesh& mesh) {
-  double sum = 0;
-  for (std::size_t t = 0; t < mesh.num_tets(); ++t)
-    if (mesh.alive(TetId(t))) sum += signed_volume6(mesh, TetId(t)) / 6;
-  return sum;
-}
 
 TetId random_tet(const TetMesh& mesh, std::mt19937& random) {
   for (;;) {
@@ -93,16 +88,6 @@ double area(const TetMesh& mesh, const Features& features, int colour) {
   return sum;
 }
 
-int surface_euler_characteristic(const Features& features) {
-  std::set<VertexId> vertices;
-  std::set<EdgeKey> edges;
-  for (const auto& [f, colour] : features.faces) {
-    vertices.insert(f.begin(), f.end());
-    edges.insert({edge_key(f[0], f[1]), edge_key(f[1], f[2]), edge_key(f[0], f[2])});
-  }
-  return static_cast<int>(vertices.size()) - static_cast<int>(edges.size()) + static_cast<int>(features.faces.size());
-}
-
 // Keeps the keys of all half-faces, to compare origins with.
 struct OriginCheck : MeshAttribute {
   std::vector<std::array<FaceKey, 4>> keys;
@@ -162,7 +147,7 @@ TEST(Edit, OneTetSplitsInEveryWay) {
   for (const TetMesh& mesh : {edge, face, inner}) {
     EXPECT_TRUE(check(mesh).empty());
     EXPECT_FALSE(mesh.alive(TetId(0)));
-    EXPECT_NEAR(volume(mesh), 1.0 / 6, 1e-15);
+    EXPECT_NEAR(total_volume(mesh), 1.0 / 6, 1e-15);
     expect_rebuild_agrees(mesh);
   }
 }
@@ -191,7 +176,7 @@ TEST(Edit, HundredsOfRandomSplitsKeepMeshFeaturesAndOrigins) {
   for (int round = 0; round < 4; ++round) {
     for (int i = 0; i < 150; ++i) random_split(mesh, random, {&feature_attribute, &origins});
     EXPECT_TRUE(check(mesh).empty());
-    EXPECT_NEAR(volume(mesh), 8, 1e-11);
+    EXPECT_NEAR(total_volume(mesh), 8, 1e-11);
     EXPECT_NEAR(length(mesh, features), length_before, 1e-11);
     EXPECT_EQ(surface_euler_characteristic(features), 3);
     for (int colour = 1; colour <= 7; ++colour) EXPECT_NEAR(area(mesh, features, colour), 4, 1e-11);

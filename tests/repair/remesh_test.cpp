@@ -13,32 +13,16 @@
 
 using namespace hexfield;
 using hexfield::testing::box_state;
+using hexfield::testing::surface_euler_characteristic;
 using hexfield::testing::zipper_state;
 
 namespace {
-
-double volume(const TetMesh& mesh) {
-  double sum = 0;
-  for (std::size_t t = 0; t < mesh.num_tets(); ++t)
-    if (mesh.alive(TetId(t))) sum += signed_volume6(mesh, TetId(t)) / 6;
-  return sum;
-}
 
 std::vector<TetId> all_tets(const TetMesh& mesh) {
   std::vector<TetId> tets;
   for (std::size_t t = 0; t < mesh.num_tets(); ++t)
     if (mesh.alive(TetId(t))) tets.emplace_back(t);
   return tets;
-}
-
-int euler_characteristic(const Features& features) {
-  std::set<VertexId> vertices;
-  std::set<EdgeKey> edges;
-  for (const auto& [f, c] : features.faces) {
-    vertices.insert(f.begin(), f.end());
-    edges.insert({edge_key(f[0], f[1]), edge_key(f[1], f[2]), edge_key(f[0], f[2])});
-  }
-  return static_cast<int>(vertices.size()) - static_cast<int>(edges.size()) + static_cast<int>(features.faces.size());
 }
 
 double curve_length(const RepairState& state) {
@@ -80,7 +64,7 @@ RepairState shaken_zipper() {
 TEST(Remesh, EditsKeepVolumeFeaturesAndCodes) {
   RepairState state = shaken_zipper();
   ASSERT_TRUE(check(state).empty());
-  const int euler = euler_characteristic(state.features);
+  const int euler = surface_euler_characteristic(state.features);
   const double curves = curve_length(state);
   RemeshReport total;
   for (int round = 0; round < 4; ++round) {
@@ -91,8 +75,8 @@ TEST(Remesh, EditsKeepVolumeFeaturesAndCodes) {
     total.swaps += report.swaps;
     const auto violations = check(state);
     ASSERT_TRUE(violations.empty()) << violations[0].sentence;
-    EXPECT_NEAR(volume(state.mesh), 6 * 4 * 4, 1e-9);
-    EXPECT_EQ(euler_characteristic(state.features), euler);
+    EXPECT_NEAR(total_volume(state.mesh), 6 * 4 * 4, 1e-9);
+    EXPECT_EQ(surface_euler_characteristic(state.features), euler);
     EXPECT_NEAR(curve_length(state), curves, 1e-9);
     EXPECT_EQ(state.codes, compute_codes(state.mesh, state.features, state.field));
     int kept = 0;
@@ -163,7 +147,7 @@ TEST(Remesh, NeighbourhoodsAreRemeshedInsideAndCommitted) {
   n.commit(state);
   const auto violations = check(state);
   EXPECT_TRUE(violations.empty()) << violations[0].sentence;
-  EXPECT_NEAR(volume(state.mesh), 6 * 4 * 4, 1e-9);
+  EXPECT_NEAR(total_volume(state.mesh), 6 * 4 * 4, 1e-9);
 }
 
 TEST(Remesh, SameBytesForAnyNumberOfThreads) {
@@ -181,14 +165,14 @@ TEST(PostRemesh, RaisesQualityAndKeepsFeaturesAndCodes) {
   RepairState state = shaken_zipper();
   const ClosestSurface surface(state.mesh, state.features);
   const ClosestCurve curves(state.mesh, state.features);
-  const int euler = euler_characteristic(state.features);
+  const int euler = surface_euler_characteristic(state.features);
   const PostRemeshReport report = post_remesh(state, surface, curves);
   EXPECT_LT(report.worst_after, report.worst_before);
   EXPECT_LT(report.mean_after, report.mean_before);
   const auto violations = check(state);
   ASSERT_TRUE(violations.empty()) << violations[0].sentence;
-  EXPECT_NEAR(volume(state.mesh), 6 * 4 * 4, 1e-9);
-  EXPECT_EQ(euler_characteristic(state.features), euler);
+  EXPECT_NEAR(total_volume(state.mesh), 6 * 4 * 4, 1e-9);
+  EXPECT_EQ(surface_euler_characteristic(state.features), euler);
   EXPECT_NEAR(curve_length(state), 4 * (6 + 4 + 4), 1e-9);
   for (std::size_t t = 0; t < state.mesh.num_tets(); ++t) EXPECT_TRUE(state.mesh.alive(TetId(t)));
   for (TetId t : state.mesh.vertex_tet) EXPECT_TRUE(t.valid());

@@ -5,19 +5,11 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
+#include "support/random_matrix.hpp"
+
 using namespace hexfield;
+using hexfield::testing::random_matrix;
 using solve::untangle_energy;
-
-namespace {
-
-Mat3 random_matrix(std::mt19937& random) {
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Mat3 m;
-  for (int i = 0; i < 9; ++i) m(i / 3, i % 3) = uniform(random);
-  return m;
-}
-
-}  // namespace
 
 TEST(UntangleEnergy, GradientMatchesFiniteDifferencesOnBothSidesOfZeroVolume) {
   std::mt19937 random(1);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+
 #include "hexfield/mesh/features.hpp"
 #include "hexfield/mesh/tet_mesh.hpp"
 
@@ -29,6 +31,17 @@ inline TetMesh kuhn_box(int nx, int ny, int nz) {
           tets.push_back(t);
         }
   return build_tet_mesh(std::move(points), std::move(tets));
+}
+
+/// Vertices minus edges plus faces of all feature faces together.
+inline int surface_euler_characteristic(const Features& features) {
+  std::set<VertexId> vertices;
+  std::set<EdgeKey> edges;
+  for (const auto& [f, colour] : features.faces) {
+    vertices.insert(f.begin(), f.end());
+    edges.insert({edge_key(f[0], f[1]), edge_key(f[1], f[2]), edge_key(f[0], f[2])});
+  }
+  return static_cast<int>(vertices.size()) - static_cast<int>(edges.size()) + static_cast<int>(features.faces.size());
 }
 
 }  // namespace hexfield::testing

@@ -12,4 +12,7 @@ double tet_distortion(const TetMesh& mesh, TetId t);
 /// distortion, log 3 at its best.
 double log_energy(double distortion);
 
+/// Sum of the volumes of all alive tets, in their order.
+double total_volume(const TetMesh& mesh);
+
 }  // namespace hexfield

@@ -54,6 +54,10 @@ void set_matching(RepairState& state, HalfFaceId h, octahedral::Rotation matchin
 
 /// A boundary face or a tagged one.
 bool is_feature_face(const RepairState& state, HalfFaceId h);
+/// Is the vertex, or the edge (that of a ring), part of such a face?
+bool on_feature_face(const RepairState& state, VertexId v);
+bool in_feature_face(const RepairState& state, const EdgeRing& ring);
+bool in_feature_face(const RepairState& state, const EdgeKey& edge);
 /// A feature edge, or one whose code is not zero.
 bool is_special(const RepairState& state, const EdgeKey& edge);
 EdgeCode code_of(const RepairState& state, const EdgeKey& edge);

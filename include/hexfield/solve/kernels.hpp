@@ -10,6 +10,14 @@ namespace hexfield::solve {
 using Vec9 = Eigen::Matrix<double, 9, 1>;
 using Mat9 = Eigen::Matrix<double, 9, 9, Eigen::RowMajor>;
 
+/// The vector of a matrix.
+inline Vec9 flat(const Mat3& m) {
+  Vec9 v;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) v[3 * i + j] = m(i, j);
+  return v;
+}
+
 /// J = U diag(sigma) V^T with orthogonal U, V and sigma > 0, in no order; only for invertible J.
 /// One-sided Jacobi rotations: small singular values keep their relative accuracy.
 struct Svd3 {
