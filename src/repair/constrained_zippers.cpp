@@ -13,27 +13,6 @@ namespace {
 
 using octahedral::Label;
 
-// In a feature face, or special itself: no spoke for a vertex on a feature.
-bool is_held(const RepairState& state, VertexId a, VertexId b) {
-  if (is_special(state, edge_key(a, b))) return true;
-  const EdgeRing ring = ring_of(state.mesh, a, b);
-  return !ring.closed || std::ranges::any_of(ring.crossings, [&](HalfFaceId h) { return is_feature_face(state, h); });
-}
-
-// Splits the inner faces at v between two held edges, so that spokes get past everywhere.
-void free_spokes(RepairState& state, VertexId v) {
-  std::set<FaceKey> narrow;
-  for (TetId t : vertex_star(state.mesh, v))
-    for (int f = 0; f < 4; ++f) {
-      const HalfFaceId h(t, f);
-      if (state.mesh.vertices(t)[static_cast<std::size_t>(f)] == v || is_feature_face(state, h)) continue;
-      const auto corners = state.mesh.face_vertices(h);
-      if (std::ranges::all_of(corners, [&](VertexId w) { return w == v || is_held(state, v, w); }))
-        narrow.insert(state.mesh.key(h));
-    }
-  for (const FaceKey& face : narrow) split_face(state, find_half_face(state.mesh, face));
-}
-
 std::optional<Strip> strip_beside(RepairState& state, const GuidedPath& path, VertexId start, bool split_start) {
   for (std::size_t i = 0; i < path.held; ++i) free_spokes(state, path.vertices[i]);
   StripRequest request;

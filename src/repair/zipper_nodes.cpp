@@ -5,6 +5,7 @@
 
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/field/edge_codes.hpp"
+#include "hexfield/repair/free_ends.hpp"
 #include "hexfield/repair/neighbourhood.hpp"
 #include "hexfield/repair/state_ops.hpp"
 #include "hexfield/repair/zipping.hpp"
@@ -65,6 +66,15 @@ bool path_is_regular(const RepairState& state, const std::vector<VertexId>& path
   return true;
 }
 
+void hold_ends(RepairState& state, const UnzipPath& path, StripRequest& request) {
+  const bool at_start = is_zipper_on_curve(state, path.seed.origin);
+  request.end_held =
+      path.partner && request.path.back() == path.partner->node && is_zipper_on_curve(state, path.partner->node);
+  request.held = at_start ? 1 : 0;
+  if (at_start) free_spokes(state, request.path.front());
+  if (request.end_held) free_spokes(state, request.path.back());
+}
+
 }  // namespace
 
 std::vector<UnzipSeed> unzip_seeds(const RepairState& state, const FreeZipper& zipper) {
@@ -115,6 +125,7 @@ bool unzip(RepairState& state, const UnzipPath& path, const ZipperOptions& optio
     request.end = ends->second;
   }
   if (!path_is_regular(state, request.path)) return false;
+  hold_ends(state, path, request);
   const auto strip = build_strip(state, request);
   if (!strip) return false;
   ZipOptions zip;
