@@ -103,7 +103,8 @@ class SpokeSearch {
     if (is_special(state_, edge_key(path(s.first), s.second))) return false;
     bool in_feature = !ring.closed;
     for (HalfFaceId h : ring.crossings) in_feature = in_feature || is_feature_face(state_, h);
-    if (!in_feature || (s.first >= request_.held && !(last && request_.end_held))) return true;
+    const bool held = s.first < request_.held || s.first + request_.held_last >= request_.path.size();
+    if (!in_feature || !held) return true;
     return last && std::ranges::find(request_.exits, s.second) != request_.exits.end();
   }
 

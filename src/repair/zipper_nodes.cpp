@@ -67,12 +67,11 @@ bool path_is_regular(const RepairState& state, const std::vector<VertexId>& path
 }
 
 void hold_ends(RepairState& state, const UnzipPath& path, StripRequest& request) {
-  const bool at_start = is_zipper_on_curve(state, path.seed.origin);
-  request.end_held =
-      path.partner && request.path.back() == path.partner->node && is_zipper_on_curve(state, path.partner->node);
-  request.held = at_start ? 1 : 0;
-  if (at_start) free_spokes(state, request.path.front());
-  if (request.end_held) free_spokes(state, request.path.back());
+  if (is_zipper_on_curve(state, path.seed.origin)) request.held = 1;
+  if (path.partner && request.path.back() == path.partner->node && is_zipper_on_curve(state, path.partner->node))
+    request.held_last = 1;
+  if (request.held > 0) free_spokes(state, request.path.front());
+  if (request.held_last > 0) free_spokes(state, request.path.back());
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct StripRequest {
   /// So many first path vertices lie on features: their spokes, but the first and last, stay off feature faces. Others
   /// may lie in a face that the path crosses.
   std::size_t held = 0;
-  bool end_held = false;  ///< so does the last one, where `end` is
+  std::size_t held_last = 0;  ///< and so many last ones
 };
 
 struct Strip {
