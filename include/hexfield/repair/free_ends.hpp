@@ -6,9 +6,10 @@
 
 namespace hexfield {
 
-/// Regular vertices of feature curves (two feature edges of one code) at which exactly one singular arc of the
-/// inside ends, ascending. Such an arc has the coordinates of the curve in every map, along its whole length: where its
-/// other end lies beside another curve of the same plane, no injective map exists although every one-ring has one.
+/// Regular vertices of feature curves (two feature edges of one code, in line where the vertex is a feature point) at
+/// which exactly one singular arc of the inside ends, ascending. Such an arc has the coordinates of the curve in every
+/// map, along its whole length: where its other end lies beside another curve of the same plane, no injective map
+/// exists although every one-ring has one.
 std::vector<VertexId> ends_on_curves(const RepairState& state);
 
 /// Is v such an end whose arc arrives parallel to one face of a reentrant curve, and against the normal of the other
