@@ -69,7 +69,7 @@ RepairResult repair_field(RepairIterate iterate, const FieldResult& input, const
     const int k = iterate.report.iterations - options.first_iterations;
     const bool round = k >= 0 && k % options.inner_iterations == 0;
     if (round && (schedule.meshable() || iterate.stale_rounds >= options.patience)) break;
-    if (k < 0 || round) schedule.repair_edges_and_vertices();
+    if (k < 0 || round) schedule.repair_edges_and_vertices(k < 0);
     if (round) schedule.repair_zippers();
     schedule.relocate();
     schedule.end_iteration();

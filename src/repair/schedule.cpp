@@ -107,8 +107,12 @@ void Schedule::isolate() {
   compact(state_);
 }
 
-void Schedule::repair_edges_and_vertices() {
-  timed("repair edges", [&] { return repair_edges(state_).total(); });
+void Schedule::repair_edges_and_vertices(bool first_stage) {
+  timed("repair edges", [&] {
+    EdgeRepairOptions options;
+    options.compound_inside = !first_stage;
+    return repair_edges(state_, options).total();
+  });
   timed("repair vertices", [&] {
     const std::vector<Place> places = vertices_to_repair(state_);
     const auto commits = for_places(state_, places, [](Neighbourhood& copy, std::span<const VertexId> seeds) {
