@@ -19,6 +19,7 @@ using octahedral::Rotation;
 constexpr double blunt_margin = 20.0 / 90.0;  // of a quad sector: how near to the middle between two counts
 constexpr int worst_code = 100;               // compound and undetermined edges weigh more than any others
 constexpr int passes = 10;
+constexpr double fair_share = 0.2;
 
 class Settling {
  public:
@@ -28,7 +29,7 @@ class Settling {
   int run() {
     int changed = give_back();
     for (const std::vector<EdgeKey>& curve : curves()) changed += agree_on_code(curve);
-    return changed + give_back();
+    return changed;
   }
 
  private:
@@ -75,16 +76,51 @@ class Settling {
     return found;
   }
 
-  // The code that most of the curve's length has becomes that of its blunt edges.
-  int agree_on_code(const std::vector<EdgeKey>& curve) {
-    std::map<EdgeCode, double> length;
-    for (const EdgeKey& e : curve) length[code_of(e)] += (mesh_.point(e[1]) - mesh_.point(e[0])).norm();
-    if (length.size() < 2) return 0;
+  struct Share {
+    double length = 0;
+    double distortion = 0;  // mean |log| of the angle per quad over 90 degrees, times length
+  };
+
+  Share share_of(const EdgeKey& e) const {
+    double angle = 0, quads = 0;
+    for (const Sector& s : sectors(mesh_, features_, field_, ring_of(e), e[0], e[1]))
+      angle += s.dihedral, quads += s.quads;
+    const double length = (mesh_.point(e[1]) - mesh_.point(e[0])).norm();
+    return {length, quads > 0 ? length * std::abs(std::log(angle / quads / (M_PI / 2))) : length * worst_code};
+  }
+
+  // The code of most of the edges that are not blunt; where all are, of those with a fair share of the curve the one
+  // whose quads come nearest to right angles. Nothing when there is one code only.
+  std::optional<EdgeCode> code_to_agree_on(const std::vector<EdgeKey>& curve) const {
+    std::map<EdgeCode, Share> blunt;
+    std::map<EdgeCode, double> angular;
+    double length = 0;
+    for (const EdgeKey& e : curve) {
+      const Share share = share_of(e);
+      const EdgeCode code = code_of(e);
+      length += share.length;
+      if (blunt_faces(e).empty()) angular[code] += share.length;
+      blunt[code].length += share.length;
+      blunt[code].distortion += share.distortion;
+    }
+    if (blunt.size() < 2) return {};
     const auto shorter = [](const auto& a, const auto& b) { return a.second < b.second; };
-    const EdgeCode wanted = std::ranges::max_element(length, shorter)->first;
+    if (!angular.empty()) return std::ranges::max_element(angular, shorter)->first;
+    std::optional<EdgeCode> best;
+    double least = 0;
+    for (const auto& [code, share] : blunt)
+      if (const double mean = share.distortion / share.length;
+          share.length > fair_share * length && (!best || mean < least))
+        best = code, least = mean;
+    return best;
+  }
+
+  int agree_on_code(const std::vector<EdgeKey>& curve) {
+    const auto wanted = code_to_agree_on(curve);
+    if (!wanted) return 0;
     int changed = 0;
     for (const EdgeKey& e : curve)
-      if (code_of(e) != wanted) changed += turn_to_code(e, wanted);
+      if (code_of(e) != *wanted) changed += turn_to_code(e, *wanted);
     return changed;
   }
 
