@@ -51,12 +51,13 @@ std::vector<VertexId> vertices_of(const std::vector<EdgeKey>& edges) {
   return vertices;
 }
 
-// Vertices of special edges that need repair, those with few singular edges first (spec-lmff section 5.5).
+// Vertices of special edges that need repair, those with few singular edges first (spec-lmff section 5.5). Zipper nodes
+// on curves wait for a partner: alone they would leave through whatever surface is near.
 std::vector<Place> vertices_to_repair(const RepairState& state) {
   const std::vector<VertexId> all = vertices_of(special_edges(state));
   std::vector<char> bad(all.size(), 0);
   parallel_for(all.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) bad[i] = needs_repair(state, all[i]);
+    for (std::size_t i = begin; i < end; ++i) bad[i] = needs_repair(state, all[i]) && !is_zipper_on_curve(state, all[i]);
   });
   std::vector<std::pair<std::size_t, VertexId>> order;
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -1,6 +1,8 @@
 #include "hexfield/repair/zipper_nodes.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 #include <optional>
 
 #include "hexfield/base/parallel.hpp"
@@ -187,6 +189,17 @@ bool unzip_on_copy(RepairState& state, const UnzipPath& path, const ZipperOption
   return true;
 }
 
+// Pairs that lie nearest to each other come first, so that none takes the partner of another; the rest as selected.
+std::vector<std::size_t> partners_first(const std::vector<std::optional<UnzipPath>>& paths) {
+  std::vector<std::size_t> order(paths.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t i) {
+    return paths[i] && paths[i]->partner ? paths[i]->distance : std::numeric_limits<double>::infinity();
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  return order;
+}
+
 }  // namespace
 
 int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
@@ -200,7 +213,8 @@ int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
       paths[i] = find_unzip_path(state, unzip_seeds(state, zippers[i]), partners, blocked, consumed, options.search);
   });
   int unzipped = 0;
-  for (std::size_t i = 0; i < zippers.size() && unzipped < options.cap; ++i) {
+  for (std::size_t i : partners_first(paths)) {
+    if (unzipped >= options.cap) break;
     if (consumed.contains(zippers[i].node) || !is_free_zipper(state, zippers[i].node)) continue;
     if (paths[i] && !untouched(state, *paths[i], consumed))
       paths[i] =
