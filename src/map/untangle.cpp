@@ -65,7 +65,7 @@ std::vector<double> untangle(const MapProblem& problem, const std::vector<double
     broadcast(comm, found.inverted);
     if (found.inverted == 0) break;
     idle = found.inverted < fewest ? 0 : idle + 1;
-    if (idle == max_idle_rounds) break;
+    if (idle == max_idle_rounds || monitor.exhausted()) break;
     fewest = std::min(fewest, found.inverted);
     energy.set_epsilon(epsilon_for(found.smallest));
     monitor.minimise(comm, terms, y.get(), options, "untangling", {});
@@ -91,7 +91,7 @@ std::vector<double> make_positive(const MapProblem& problem, std::vector<double>
     positivity.set_factor(penalty);
     monitor.minimise(problem.comm(), terms, y.get(), options, "positive fit", {});
     start = problem.gather(y.get(), {});
-    if (done(start)) break;
+    if (done(start) || monitor.exhausted()) break;
   }
   return start;
 }

@@ -58,6 +58,7 @@ std::string text_of(const RepairReport& report) {
   lines.add("operation/", report.operations);
   lines.add("seconds/", report.seconds);
   lines.add("iterations", report.iterations);
+  lines.add("work", static_cast<double>(report.work));
   return lines.text();
 }
 
@@ -72,6 +73,7 @@ RepairReport report_from(const std::string& text) {
   take(lines, "operation/", report.operations);
   take(lines, "seconds/", report.seconds);
   report.iterations = static_cast<int>(lines["iterations"]);
+  report.work = static_cast<long>(lines["work"]);
   return report;
 }
 

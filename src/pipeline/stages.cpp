@@ -107,9 +107,10 @@ Stage repair_stage() {
     state.team.on_root([&] {
       const std::string name = basis + " try " + std::to_string(state.attempt);
       const auto found = state.safe_points.restore_on_root("repair", name);
-      RepairIterate start = found ? unpack_repair_iterate(*found) : start_repair(state.field);
-      RepairResult result = repair_field(std::move(start), state.field, varied(state.options.repair, state.attempt),
-                                         repair_control(state, name, progress));
+      const RepairControl control = repair_control(state, name, progress);
+      RepairIterate start = found ? unpack_repair_iterate(*found) : start_repair(state.field, control);
+      RepairResult result =
+          repair_field(std::move(start), state.field, varied(state.options.repair, state.attempt), control);
       state.field = std::move(result.field);
       state.repair = std::move(result.report);
     });

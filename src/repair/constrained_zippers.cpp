@@ -231,7 +231,9 @@ bool is_held_node(const RepairState& state, VertexId v) {
 // Its way may lead anywhere, so all is copied: splits of ways that fail would add up from try to try.
 template <class Operation>
 bool on_a_copy(RepairState& state, const Operation& operation) {
+  if (state.exhausted()) return false;
   RepairState trial = state;
+  trial.begin_operation(trial.mesh.num_tets());
   if (!operation(trial)) return false;
   state = std::move(trial);
   return true;

@@ -134,6 +134,7 @@ Neighbourhood::Neighbourhood(const RepairState& state, std::span<const TetId> re
   local.codes = copied_entries(state.codes, vertex_parent_, local_id);
   local.pairs = copied_entries(state.pairs, vertex_parent_, local_id);
   local.kept = copied_edges(state.kept, vertex_parent_, local_id);
+  local.watch = state.watch;
   features_before_ = local.features;
   codes_before_ = local.codes;
   pairs_before_ = local.pairs;

@@ -44,7 +44,9 @@ struct Task {
 };
 
 void work(const RepairState& state, const Place& place, const LocalOperation& operation, Task& task) {
-  task.copy = std::make_unique<Neighbourhood>(state, tets_around(state.mesh, place.seeds, place.rings));
+  const std::vector<TetId> region = tets_around(state.mesh, place.seeds, place.rings);
+  state.begin_operation(region.size());
+  task.copy = std::make_unique<Neighbourhood>(state, region);
   std::vector<VertexId> seeds;
   for (VertexId v : place.seeds) seeds.push_back(task.copy->to_local(v));
   task.changed = operation(*task.copy, seeds);
@@ -57,7 +59,7 @@ std::vector<char> for_places(RepairState& state, std::span<const Place> places, 
   std::vector<std::size_t> waiting(places.size());
   for (std::size_t i = 0; i < waiting.size(); ++i) waiting[i] = i;
   Claims claims;
-  while (!waiting.empty()) {
+  while (!waiting.empty() && !state.exhausted()) {
     claims.begin_round(state.mesh.num_tets());
     std::vector<Task> tasks;
     std::vector<std::size_t> later;

@@ -222,7 +222,8 @@ RelocationReport relocate_singularities(RepairState& state, const ClosestSurface
   RelocationReport report;
   const Builder builder(state, options);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(builder.energy().num_unknowns());
-  report.newton = descend(builder.energy(), y, options.max_iterations, options.tolerance);
+  report.newton = descend(builder.energy(), y, options.max_iterations, options.tolerance,
+                          [&] { state.begin_operation(builder.tets().size()); });
   std::vector<Move> moves = builder.moves(y);
   report.vertices = static_cast<int>(moves.size());
   project_to_originals(moves, original_surface, original_curves);

@@ -216,6 +216,8 @@ bool try_collapse(RemeshContext& context, const VertexMarks& marks, VertexId fro
   return Collapse(context, marks, from, to).run();
 }
 
+constexpr std::size_t typical_star = 24;  // tets at a vertex
+
 void collapse_pass(RemeshContext& context, std::span<const TetId> region) {
   std::vector<SizedEdge> edges = alive_edges(context, region, false);
   std::erase_if(edges, [&](const SizedEdge& e) { return e.length >= context.options.collapse_below; });
@@ -225,6 +227,7 @@ void collapse_pass(RemeshContext& context, std::span<const TetId> region) {
   for (const SizedEdge& e : edges) {
     if (!mesh.vertex_tet[e.edge[0].index()].valid() || !mesh.vertex_tet[e.edge[1].index()].valid()) continue;
     if (!find_tet_with_edge(mesh, e.edge[0], e.edge[1]).valid()) continue;
+    context.state.begin_operation(typical_star);
     if (!try_collapse(context, marks, e.edge[0], e.edge[1])) try_collapse(context, marks, e.edge[1], e.edge[0]);
   }
 }

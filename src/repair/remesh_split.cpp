@@ -33,6 +33,7 @@ void split_pass(RemeshContext& context, std::span<const TetId> region) {
   for (const SizedEdge& e : edges) {
     const TetId seed = state.mesh.alive(e.seed) ? e.seed : find_tet_with_edge(state.mesh, e.edge[0], e.edge[1]);
     const EdgeRing ring = edge_ring(state.mesh, seed, e.edge[0], e.edge[1]);
+    state.begin_operation(ring.tets.size());
     if (!context.editable(ring.tets) || !split_improves(state.mesh, ring.tets, e.edge)) continue;
     const std::size_t slots = state.mesh.num_tets();
     split_edge(state, e.edge[0], e.edge[1]);

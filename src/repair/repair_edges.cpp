@@ -107,7 +107,7 @@ EdgeRepairCounts repair_edges(RepairState& state, const EdgeRepairOptions& optio
       };
       counts.index += at_edges(state, edges_where(state, high), lower_index);
     }
-    if (counts.total() == before) break;
+    if (counts.total() == before || state.exhausted()) break;
   }
   return counts;
 }

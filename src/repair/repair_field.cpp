@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "hexfield/base/error.hpp"
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/mesh/edge_table.hpp"
 #include "hexfield/repair/meshability.hpp"
@@ -21,8 +22,8 @@ std::vector<double> mean_edge_lengths(const TetMesh& mesh) {
   return sum;
 }
 
-DefectCounts count_defects(const FieldResult& f) {
-  const Meshability found = check_meshability(FieldView(f.mesh, f.features, f.field, f.codes));
+DefectCounts count_defects(const RepairState& f) {
+  const Meshability found = check_meshability(f);
   DefectCounts counts{found.bad_edges.size(), found.bad_vertices.size(), {}};
   for (const SingularNode& node : singularity_graph(f.mesh, f.features, f.field, f.codes).nodes)
     ++counts.kinds[name(node.kind)];
@@ -43,7 +44,22 @@ constexpr std::array<Variation, 4> variations = {{
 
 const Variation& variation(int attempt) { return variations[static_cast<std::size_t>(attempt) % variations.size()]; }
 
+std::shared_ptr<RepairWatch> watch_of(const RepairControl& control) {
+  auto watch = std::make_shared<RepairWatch>();
+  watch->stop_requested = control.stop_requested;
+  return watch;
+}
+
 }  // namespace
+
+// A few milliseconds at most.
+constexpr long work_between_asks = 256;
+
+void RepairWatch::begin(std::size_t tets) {
+  const long before = work.fetch_add(static_cast<long>(tets));
+  const bool ask = tets == 0 || before / work_between_asks != (before + static_cast<long>(tets)) / work_between_asks;
+  if (ask && stop_requested && stop_requested()) throw Error(ExitCode::stopped, "The repair of the field was stopped.");
+}
 
 RepairOptions varied(const RepairOptions& options, int attempt) {
   RepairOptions changed = options;
@@ -53,19 +69,23 @@ RepairOptions varied(const RepairOptions& options, int attempt) {
 
 std::string name_of_variation(int attempt) { return variation(attempt).name; }
 
-RepairIterate start_repair(FieldResult smooth) {
+RepairIterate start_repair(FieldResult smooth, const RepairControl& control) {
   RepairIterate start;
-  start.report.before = count_defects(smooth);
   start.state.target_length = mean_edge_lengths(smooth.mesh);
   static_cast<FieldResult&>(start.state) = std::move(smooth);
+  start.state.watch = watch_of(control);
+  start.report.before = count_defects(start.state);
   return start;
 }
 
 RepairResult repair_field(RepairIterate iterate, const FieldResult& input, const RepairOptions& options,
                           const RepairControl& control) {
+  iterate.state.watch = watch_of(control);
+  iterate.state.watch->work = iterate.report.work;
+  iterate.state.watch->budget = options.work_per_tet * static_cast<long>(input.mesh.num_tets());
   Schedule schedule(iterate, input, options, control);
   const int last = options.first_iterations + options.second_rounds * options.inner_iterations;
-  while (iterate.report.iterations < last) {
+  while (iterate.report.iterations < last && !iterate.state.exhausted()) {
     const int k = iterate.report.iterations - options.first_iterations;
     const bool round = k >= 0 && k % options.inner_iterations == 0;
     if (round && (schedule.meshable() || iterate.stale_rounds >= options.patience)) break;

@@ -89,8 +89,7 @@ Schedule::Schedule(RepairIterate& iterate, const FieldResult& input, const Repai
 template <class Work>
 void Schedule::timed(const std::string& kind, const Work& work) {
   // Whoever goes on repeats this iteration: the iterate of the last one is the newest that can be taken up.
-  if (control_.stop_requested && control_.stop_requested())
-    throw Error(ExitCode::stopped, "The repair of the field was stopped.");
+  state_.begin_operation(0);
   if (control_.progress) control_.progress(kind, -1);
   const Clock::time_point start = Clock::now();
   const long done = work();
@@ -220,9 +219,11 @@ void Schedule::align_everywhere() {
 void Schedule::end_iteration() {
   compact(state_);
   ++iterate_.report.iterations;
+  iterate_.report.work = state_.watch->work;
+  // Asked first, so that the checkpoint is written when the run ends here.
   const bool stop = control_.stop_requested && control_.stop_requested();
   if (control_.checkpoint) control_.checkpoint(iterate_);
-  if (stop) throw Error(ExitCode::stopped, "The repair of the field was stopped.");
+  if (stop) state_.begin_operation(0);
 }
 
 }  // namespace hexfield

@@ -38,6 +38,7 @@ class UnzipSearch {
       const auto [distance, t] = *queue_.begin();
       queue_.erase(queue_.begin());
       if (distance > limit) break;
+      state_.begin_operation(1);
       if (const UnzipPartner* partner = partner_at(t)) return path_to(t, distance, {}, *partner);
       if (!boundary)
         if (const HalfFaceId exit = exit_at(t); exit.valid()) {

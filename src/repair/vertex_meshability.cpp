@@ -165,6 +165,8 @@ class LinkBuilder {
   Link link_;
 };
 
+constexpr std::size_t work_of_untangling = 200;  // a drawing by sweeps and Newton steps, against a look at each tet
+
 // Around an inner vertex all charts are one unless a special edge or a feature face is there.
 bool trivially_regular(const FieldView& view, VertexId v) {
   for (TetId t : vertex_star(view.mesh, v)) {
@@ -199,6 +201,7 @@ std::vector<MappedTet> mapped(const Link& link, const std::vector<Vec3>& images)
 
 VertexVerdict vertex_verdict(const FieldView& view, VertexId v, const VertexMapOptions& options,
                              std::vector<MappedTet>* map) {
+  if (view.watch != nullptr) view.watch->begin(vertex_star(view.mesh, v).size());
   std::optional<Link> built = LinkBuilder(view, v).build();
   if (!built || !admits_area(*built)) return VertexVerdict::not_meshable;
   Link plain = *std::move(built);
@@ -213,6 +216,7 @@ VertexVerdict vertex_verdict(const FieldView& view, VertexId v, const VertexMapO
     if (map != nullptr) *map = mapped(harmonic, starts(harmonic));
     return VertexVerdict::meshable;
   }
+  if (view.watch != nullptr) view.watch->begin(work_of_untangling * plain.triangles.size());
   std::vector<Link> guesses = {plain, plain};
   align_frames(guesses[0], options.sweeps);
   guess_images(guesses[0]);

@@ -38,6 +38,7 @@ bool repair_step_by_step(RepairState& local, VertexId v, const VertexRepairOptio
     bool success = false;
     for (const VertexOperation& operation : vertex_operations(local, v, options.reversals)) {
       RepairState trial = local;
+      trial.begin_operation(trial.mesh.num_tets());
       if (!operation(trial, v, accept)) continue;
       local = std::move(trial);
       success = true;

@@ -74,6 +74,7 @@ class Sequences {
     open_.erase(best);
     for (const VertexOperation& operation : sequence_operations(from.state, v_)) {
       RepairState trial = from.state;
+      trial.begin_operation(trial.mesh.num_tets());
       operation(trial, v_, [&](RepairState& state) {
         consider(state, from.steps + 1);
         return found_;

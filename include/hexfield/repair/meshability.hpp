@@ -17,11 +17,14 @@ struct FieldView {
   const Features& features;
   const FrameField& field;
   const EdgeCodes& codes;
+  RepairWatch* watch = nullptr;  ///< hears of every vertex that is solved; may be null
 
   FieldView(const TetMesh& m, const Features& f, const FrameField& q, const EdgeCodes& c)
       : mesh(m), features(f), field(q), codes(c) {}
   FieldView(const RepairState& state)  // NOLINT(google-explicit-constructor): every state is one
-      : FieldView(state.mesh, state.features, state.field, state.codes) {}
+      : FieldView(state.mesh, state.features, state.field, state.codes) {
+    watch = state.watch.get();
+  }
 };
 
 /// An edge is meshable when its monodromy fits its code, the code is neither compound nor undetermined and leaves
