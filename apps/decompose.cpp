@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "hex_graph.hpp"
 #include "hexfield/base/parallel.hpp"
+#include "hexfield/base/signals.hpp"
 #include "hexfield/hex/check.hpp"
 #include "hexfield/hex/hex_surface.hpp"
 #include "hexfield/hex/improve.hpp"
@@ -52,9 +53,11 @@ ExitCode decompose_command(const DecomposeLine& line) {
     const HexShape shape = line.free_boundary ? HexShape{} : HexShape{&surface.mesh, &surface.features};
     fmt::print("before: {} hexes, smallest scaled Jacobian {:.4f}\n", mesh.hexes.size(), quality(mesh).min);
     print_graph(hex_singular_graph(mesh, build_hex_complex(mesh)));
+    Control control;
+    control.stop_requested = [] { return stop_signal() != 0; };
     DecomposeOptions options = line.options;
     if (line.search == "greedy") options.search = DecomposeOptions::Search::greedy;
-    const Decomposition done = decompose_on_shape(mesh, shape, options, {});
+    const Decomposition done = decompose_on_shape(mesh, shape, options, control);
     for (std::size_t k = 0; k < done.steps.size(); ++k)
       fmt::print("sheet {}: {} quads, measure {}\n", k + 1, done.steps[k].quads.size(), done.steps[k].measure);
     const HexMesh& result = done.mesh;

@@ -25,8 +25,8 @@ constexpr int max_idle_stages = 2;
 /// ... which has at most this share of the defects of the best one before.
 constexpr double progress_factor = 0.9;
 
-/// Work (SolveMonitor) after which no better map is searched for: some milliseconds per tet.
-constexpr long max_work = 4000;
+/// Work (SolveMonitor) after which no better map is searched for: two to three milliseconds per tet.
+constexpr long max_work = 2000;
 
 /// A map of the conforming space and what verify_map() says of it.
 struct Candidate {

@@ -119,7 +119,8 @@ std::vector<IntegrableStageReport> optimise_integrable_frames(
         frames.run(options.schedule[s], last ? options.last_decrease_tolerance : options.decrease_tolerance, control));
     const bool stopped = reports.back().stopped;
     // Judged first: it may add to the work, and whoever goes on does not judge this stage again.
-    const bool end = !stopped && ((done && done(s, frames, reports.back())) || reports.back().exhausted);
+    bool end = !stopped && ((done && done(s, frames, reports.back())) || reports.back().exhausted);
+    end = end || (options.max_work > 0 && frames.work() >= options.max_work);
     if (control.offer_iterate)
       control.offer_iterate(iterate_name, [&] {
         std::vector<double> values{static_cast<double>(stopped ? s : s + 1), static_cast<double>(frames.work())};

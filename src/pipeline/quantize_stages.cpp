@@ -156,8 +156,11 @@ class IgmStage {
   static constexpr int max_targets = 3;
   static constexpr double more_hexes = 1.4;
   static constexpr int max_refinements = 3;
+  /// Of all solves together, after which nothing else is tried: a valid map takes a tenth of them.
+  static constexpr int max_newton_steps = 1000;
 
   bool root() const { return state_.team.is_root(); }
+  bool spent() const { return state_.igm.newton_steps > max_newton_steps; }
   void note(std::string sentence) {
     if (!root() || sentence.empty()) return;
     state_.log.info(sentence);
@@ -177,7 +180,7 @@ class IgmStage {
 
   bool reach() {
     double hexes = options_.target_hexes;
-    for (int target = 0; target < max_targets; ++target, hexes *= more_hexes) {
+    for (int target = 0; target < max_targets && !spent(); ++target, hexes *= more_hexes) {
       if (target > 0) state_.team.on_root([&] { other_integers(hexes); });
       if (reach_with_refinement()) return true;
     }
@@ -196,7 +199,7 @@ class IgmStage {
     };
     for (int round = 0;; ++round) {
       if (solve(options)) return true;
-      if (round == max_refinements || state_.igm.report.inverted.empty()) break;
+      if (round == max_refinements || spent() || state_.igm.report.inverted.empty()) break;
       state_.team.on_root([&] { refine(); });
     }
     if (root()) note(spacing_near(state_.quantization, state_.igm.where));

@@ -11,6 +11,7 @@
 #include "hexfield/base/hash.hpp"
 #include "hexfield/base/ledger.hpp"
 #include "hexfield/base/parallel.hpp"
+#include "hexfield/base/watchdog.hpp"
 #include "hexfield/io/checkpoint.hpp"
 #include "hexfield/io/whole_file.hpp"
 #include "hexfield/pipeline/option_table.hpp"
@@ -55,7 +56,7 @@ class Runner {
         options_(options),
         stages_(is_map_file(options.input) ? map_stages() : all_stages()) {}
 
-  Outcome go();
+  Outcome go(const std::function<void(const std::string&)>& unheard);
 
  private:
   void prepare();
@@ -310,10 +311,15 @@ std::string Runner::success_sentence() const {
   return state_.sentence;
 }
 
-Outcome Runner::go() {
+Outcome Runner::go(const std::function<void(const std::string&)>& unheard) {
   Outcome outcome;
   std::vector<Vec3> where;
   try {
+    // Until the results are written: from there on it is not long to the end.
+    std::optional<Watchdog> dog;
+    if (unheard && team_.is_root())
+      dog.emplace([this] { return safe_points_.unheard(); }, patience_with_stages,
+                  [&] { unheard("Stopped in the middle of a stage; --resume continues from the last checkpoint."); });
     prepare();
     run_stages();
     if (team_.is_root()) outcome.sentence = success_sentence();
@@ -347,12 +353,13 @@ Outcome Runner::finish(Outcome outcome, const std::vector<Vec3>& where) {
 
 }  // namespace
 
-Outcome run(MPI_Comm comm, const RunOptions& options, Log& log) {
+Outcome run(MPI_Comm comm, const RunOptions& options, Log& log,
+            const std::function<void(const std::string&)>& unheard) {
   Team team(comm, log);
   Outcome outcome;
   try {
     // A failure outside the stages is one of this rank alone unless all agree on it.
-    team.together([&] { outcome = Runner(team, options, log).go(); });
+    team.together([&] { outcome = Runner(team, options, log).go(unheard); });
   } catch (const Error& error) {
     outcome = {error.code(), error.sentence()};
   }

@@ -16,6 +16,8 @@
 namespace hexfield {
 namespace {
 
+constexpr std::size_t work_of_step = 10;  // Hessian, factorisation and line search per tet
+
 using octahedral::Label;
 using Place = SingularVertex::Place;
 
@@ -223,7 +225,7 @@ RelocationReport relocate_singularities(RepairState& state, const ClosestSurface
   const Builder builder(state, options);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(builder.energy().num_unknowns());
   report.newton = descend(builder.energy(), y, options.max_iterations, options.tolerance,
-                          [&] { state.begin_operation(builder.tets().size()); });
+                          [&] { state.begin_operation(work_of_step * builder.tets().size()); });
   std::vector<Move> moves = builder.moves(y);
   report.vertices = static_cast<int>(moves.size());
   project_to_originals(moves, original_surface, original_curves);

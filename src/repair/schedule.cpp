@@ -143,8 +143,9 @@ void Schedule::relocate() {
     return relocate_singularities(state_, surface_, curves_, options).vertices;
   });
   timed("smooth near arcs", [&] {
-    smooth_to_features(state_, tets_around(state_.mesh, vertices_of(singular_edges(state_)), relocation_rings),
-                       relocation_sweeps);
+    const std::vector<TetId> near = tets_around(state_.mesh, vertices_of(singular_edges(state_)), relocation_rings);
+    state_.begin_operation(near.size());
+    smooth_to_features(state_, near, relocation_sweeps);
     update_codes(state_, singular_edges(state_));
     return 0;
   });
