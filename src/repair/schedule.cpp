@@ -17,6 +17,7 @@
 #include "hexfield/repair/constrained_zippers.hpp"
 #include "hexfield/repair/edge_repair.hpp"
 #include "hexfield/repair/free_ends.hpp"
+#include "hexfield/repair/merge_arcs.hpp"
 #include "hexfield/repair/meshability.hpp"
 #include "hexfield/repair/neighbourhood_loop.hpp"
 #include "hexfield/repair/relocation.hpp"
@@ -57,7 +58,8 @@ std::vector<Place> vertices_to_repair(const RepairState& state) {
   const std::vector<VertexId> all = vertices_of(special_edges(state));
   std::vector<char> bad(all.size(), 0);
   parallel_for(all.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) bad[i] = needs_repair(state, all[i]) && !is_zipper_on_curve(state, all[i]);
+    for (std::size_t i = begin; i < end; ++i)
+      bad[i] = needs_repair(state, all[i]) && !is_zipper_on_curve(state, all[i]);
   });
   std::vector<std::pair<std::size_t, VertexId>> order;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -188,6 +190,7 @@ void Schedule::free_ends() {
 
 void Schedule::finish() {
   free_ends();
+  timed("merge crossing arcs", [&] { return merge_crossing_arcs(state_); });
   timed("separate arcs and features", [&] {
     unify_codes(state_.mesh, state_.field, state_.codes);
     isolate();
