@@ -103,8 +103,8 @@ TEST(LowerBounds, ArcsKeepTheirLeastLength) {
   }
 }
 
-// A bar of four hexes bent round half a circle: the map is straight, the curves along it stand for 180 degrees, of which
-// three turns of 45 are seen.
+// A bar of four hexes bent round half a circle: the map is straight, the curves along it stand for 180 degrees, of
+// which three turns of 45 are seen.
 TEST(LowerBounds, ArcsKnowHowFarTheyTurnInSpace) {
   MappedMesh m = grid_of_blocks({{{1, 1}, {1, 1}, {1, 1, 1, 1}}}, [](int i, int j, int) { return i == 0 || j == 0; });
   for (Vec3& p : m.mesh.points) {
