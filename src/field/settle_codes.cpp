@@ -19,7 +19,7 @@ using octahedral::Rotation;
 constexpr double blunt_margin = 20.0 / 90.0;  // of a quad sector: how near to the middle between two counts
 constexpr int worst_code = 100;               // compound and undetermined edges weigh more than any others
 constexpr int passes = 10;
-constexpr double fair_share = 0.2;
+constexpr double fair_share = 0.2, prevailing_share = 0.75;
 
 class Settling {
  public:
@@ -27,8 +27,13 @@ class Settling {
       : mesh_(mesh), features_(features), field_(field), codes_(codes) {}
 
   int run() {
-    int changed = give_back();
-    for (const std::vector<EdgeKey>& curve : curves()) changed += agree_on_code(curve);
+    const auto all = curves();
+    int changed = 0;
+    for (const std::vector<EdgeKey>& curve : all)
+      if (const auto code = prevailing_code(curve)) changed += give_code(curve, *code);
+    changed += give_back();
+    for (const std::vector<EdgeKey>& curve : all)
+      if (const auto code = code_to_agree_on(curve)) changed += give_code(curve, *code);
     return changed;
   }
 
@@ -37,7 +42,8 @@ class Settling {
     int changed = 0;
     for (int pass = 0; pass < passes; ++pass) {
       const int before = changed;
-      for (const auto& entry : features_.edges) changed += settle(entry.first);
+      for (const auto& entry : features_.edges)
+        if (!settled_.contains(entry.first)) changed += settle(entry.first);
       if (changed == before) break;
     }
     return changed;
@@ -115,12 +121,27 @@ class Settling {
     return best;
   }
 
-  int agree_on_code(const std::vector<EdgeKey>& curve) {
-    const auto wanted = code_to_agree_on(curve);
-    if (!wanted) return 0;
+  // The code that nearly all of the curve has; the curve is settled then.
+  std::optional<EdgeCode> prevailing_code(const std::vector<EdgeKey>& curve) {
+    std::map<EdgeCode, double> lengths;
+    double length = 0;
+    for (const EdgeKey& e : curve) {
+      const double l = (mesh_.point(e[1]) - mesh_.point(e[0])).norm();
+      lengths[code_of(e)] += l;
+      length += l;
+    }
+    for (const auto& [code, l] : lengths)
+      if (l > prevailing_share * length) {
+        settled_.insert(curve.begin(), curve.end());
+        return code;
+      }
+    return {};
+  }
+
+  int give_code(const std::vector<EdgeKey>& curve, EdgeCode code) {
     int changed = 0;
     for (const EdgeKey& e : curve)
-      if (code_of(e) != *wanted) changed += turn_to_code(e, *wanted);
+      if (code_of(e) != code) changed += turn_to_code(e, code);
     return changed;
   }
 
@@ -213,6 +234,7 @@ class Settling {
   const Features& features_;
   FrameField& field_;
   EdgeCodes& codes_;
+  std::set<EdgeKey> settled_;
 };
 
 }  // namespace
