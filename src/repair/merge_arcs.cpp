@@ -73,7 +73,7 @@ std::vector<VertexId> inner_arc_vertices(const RepairState& state) {
   return found;
 }
 
-// Bends, the sharpest first, each with the nearest vertex of an arc that ends beside it.
+// Bends, the sharpest first, each with the nearest vertex of an arc that ends beside it; one bend per place.
 std::vector<Place> crossings(const RepairState& state) {
   const std::vector<VertexId> vertices = inner_arc_vertices(state);
   std::vector<std::pair<double, VertexId>> bends;
@@ -81,9 +81,13 @@ std::vector<Place> crossings(const RepairState& state) {
     if (const double bend = bend_at(state, v); bend > bend_cosine) bends.emplace_back(-bend, v);
   std::sort(bends.begin(), bends.end());
   std::vector<Place> places;
+  std::vector<VertexId> seen;
   for (const auto& [bend, q] : bends) {
     std::optional<VertexId> nearest;
     double least = reach * state.target_length[q.index()];
+    const auto is_near = [&](VertexId v) { return (state.mesh.point(v) - state.mesh.point(q)).norm() < least; };
+    if (std::ranges::any_of(seen, is_near)) continue;
+    seen.push_back(q);
     for (VertexId p : vertices) {
       const double distance = (state.mesh.point(p) - state.mesh.point(q)).norm();
       if (distance < least && ends_on_surface(state, p) && !same_arc(state, p, q)) least = distance, nearest = p;
