@@ -1,7 +1,5 @@
 #include "hexfield/repair/repair_field.hpp"
 
-#include <array>
-
 #include "hexfield/base/error.hpp"
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/mesh/edge_table.hpp"
@@ -30,20 +28,6 @@ DefectCounts count_defects(const RepairState& f) {
   return counts;
 }
 
-struct Variation {
-  const char* name;
-  void (*apply)(RepairOptions&);
-};
-
-constexpr std::array<Variation, 4> variations = {{
-    {"default", [](RepairOptions&) {}},
-    {"alignment weight 1", [](RepairOptions& o) { o.alignment_weight = 1; }},
-    {"more iterations before free zipper nodes", [](RepairOptions& o) { o.first_iterations += 8; }},
-    {"alignment weight 100", [](RepairOptions& o) { o.alignment_weight = 100; }},
-}};
-
-const Variation& variation(int attempt) { return variations[static_cast<std::size_t>(attempt) % variations.size()]; }
-
 std::shared_ptr<RepairWatch> watch_of(const RepairControl& control) {
   auto watch = std::make_shared<RepairWatch>();
   watch->stop_requested = control.stop_requested;
@@ -60,14 +44,6 @@ void RepairWatch::begin(std::size_t tets) {
   const bool ask = tets == 0 || before / work_between_asks != (before + static_cast<long>(tets)) / work_between_asks;
   if (ask && stop_requested && stop_requested()) throw Error(ExitCode::stopped, "The repair of the field was stopped.");
 }
-
-RepairOptions varied(const RepairOptions& options, int attempt) {
-  RepairOptions changed = options;
-  variation(attempt).apply(changed);
-  return changed;
-}
-
-std::string name_of_variation(int attempt) { return variation(attempt).name; }
 
 RepairIterate start_repair(FieldResult smooth, const RepairControl& control) {
   RepairIterate start;
@@ -89,7 +65,7 @@ RepairResult repair_field(RepairIterate iterate, const FieldResult& input, const
     const int k = iterate.report.iterations - options.first_iterations;
     const bool round = k >= 0 && k % options.inner_iterations == 0;
     if (round && (schedule.meshable() || iterate.stale_rounds >= options.patience)) break;
-    if (k < 0 || round) schedule.repair_edges_and_vertices();
+    if (k < 0 || round) schedule.repair_edges_and_vertices(k < 0);
     if (round) schedule.repair_zippers();
     schedule.relocate();
     schedule.end_iteration();

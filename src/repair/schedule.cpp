@@ -17,6 +17,7 @@
 #include "hexfield/repair/constrained_zippers.hpp"
 #include "hexfield/repair/edge_repair.hpp"
 #include "hexfield/repair/free_ends.hpp"
+#include "hexfield/repair/merge_arcs.hpp"
 #include "hexfield/repair/meshability.hpp"
 #include "hexfield/repair/neighbourhood_loop.hpp"
 #include "hexfield/repair/relocation.hpp"
@@ -52,12 +53,14 @@ std::vector<VertexId> vertices_of(const std::vector<EdgeKey>& edges) {
   return vertices;
 }
 
-// Vertices of special edges that need repair, those with few singular edges first (spec-lmff section 5.5).
+// Vertices of special edges that need repair, those with few singular edges first (spec-lmff section 5.5). Zipper nodes
+// on curves wait for a partner: alone they would leave through whatever surface is near.
 std::vector<Place> vertices_to_repair(const RepairState& state) {
   const std::vector<VertexId> all = vertices_of(special_edges(state));
   std::vector<char> bad(all.size(), 0);
   parallel_for(all.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) bad[i] = needs_repair(state, all[i]);
+    for (std::size_t i = begin; i < end; ++i)
+      bad[i] = needs_repair(state, all[i]) && !is_zipper_on_curve(state, all[i]);
   });
   std::vector<std::pair<std::size_t, VertexId>> order;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -107,8 +110,12 @@ void Schedule::isolate() {
   compact(state_);
 }
 
-void Schedule::repair_edges_and_vertices() {
-  timed("repair edges", [&] { return repair_edges(state_).total(); });
+void Schedule::repair_edges_and_vertices(bool first_stage) {
+  timed("repair edges", [&] {
+    EdgeRepairOptions options;
+    options.compound_inside = !first_stage;
+    return repair_edges(state_, options).total();
+  });
   timed("repair vertices", [&] {
     const std::vector<Place> places = vertices_to_repair(state_);
     const auto commits = for_places(state_, places, [](Neighbourhood& copy, std::span<const VertexId> seeds) {
@@ -184,6 +191,7 @@ void Schedule::free_ends() {
 
 void Schedule::finish() {
   free_ends();
+  timed("merge crossing arcs", [&] { return merge_crossing_arcs(state_); });
   timed("separate arcs and features", [&] {
     unify_codes(state_.mesh, state_.field, state_.codes);
     isolate();

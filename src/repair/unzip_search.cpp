@@ -117,7 +117,8 @@ class UnzipSearch {
     const auto [first, last] = partners_.equal_range(t);
     for (auto it = first; it != last; ++it)
       if (it->second.u == label_in(r) && it->second.node != seeds_[r.seed].origin &&
-          it->second.edge != seeds_[r.seed].edge && !consumed_.contains(it->second.node))
+          (it->second.edge == EdgeKey{} || it->second.edge != seeds_[r.seed].edge) &&
+          !consumed_.contains(it->second.node))
         return &it->second;
     return nullptr;
   }

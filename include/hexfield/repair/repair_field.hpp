@@ -22,12 +22,6 @@ struct RepairOptions {
   int work_per_tet = 10000;
 };
 
-/// Another setting for another try; 0 is `options` itself. The changes are those by which the authors of the method
-/// got further models by hand: iterations and alignment weight (Liu and Bommes 2023, section 7).
-RepairOptions varied(const RepairOptions& options, int attempt);
-/// What varied() changed, for the report: "default", "alignment weight 1".
-std::string name_of_variation(int attempt);
-
 /// How many edges and vertices are not locally meshable, and the singular defects by kind.
 struct DefectCounts {
   std::size_t edges = 0;
