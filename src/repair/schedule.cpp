@@ -32,6 +32,7 @@ namespace {
 constexpr int isolation_passes = 4;
 constexpr int relocation_sweeps = 50;  // spec-lmff section 4
 constexpr int remesh_sweeps = 10;
+constexpr std::size_t work_of_sweeps = 3;  // what they cost, in RepairWatch::work per tet
 constexpr int relocation_rings = 3;
 constexpr int final_sweeps = 100;
 
@@ -146,7 +147,7 @@ void Schedule::relocate() {
   });
   timed("smooth near arcs", [&] {
     const std::vector<TetId> near = tets_around(state_.mesh, vertices_of(singular_edges(state_)), relocation_rings);
-    state_.begin_operation(near.size());
+    state_.begin_operation(work_of_sweeps * near.size());
     smooth_to_features(state_, near, relocation_sweeps);
     update_codes(state_, singular_edges(state_));
     return 0;

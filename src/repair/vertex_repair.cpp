@@ -34,7 +34,10 @@ bool repair_step_by_step(RepairState& local, VertexId v, const VertexRepairOptio
     const VertexScore before = score_of(local, v, near);
     if (round > 0 && !before.bad) return true;
     const bool zipper = kind_of(local, v) == NodeKind::zipper;
-    const VertexAccept accept = [&](RepairState& trial) { return better(score_of(trial, v, near), before, zipper); };
+    const VertexAccept accept = [&](RepairState& trial) {
+      trial.begin_operation(work_of_judging * trial.mesh.num_tets());
+      return better(score_of(trial, v, near), before, zipper);
+    };
     bool success = false;
     for (const VertexOperation& operation : vertex_operations(local, v, options.reversals)) {
       RepairState trial = local;

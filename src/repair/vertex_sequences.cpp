@@ -84,6 +84,7 @@ class Sequences {
   }
 
   void consider(RepairState& state, int steps) {
+    state.begin_operation(work_of_judging * state.mesh.num_tets());
     const Signature signature = signature_of(state, v_);
     if (!seen_.insert(signature).second) return;
     VertexScore score = score_near(state, v_, near_);
