@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "hexfield/base/stopwatch.hpp"
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/mesh/edge_table.hpp"
 #include "hexfield/repair/meshability.hpp"
@@ -21,8 +22,12 @@ std::vector<double> mean_edge_lengths(const TetMesh& mesh) {
   return sum;
 }
 
-DefectCounts count_defects(const FieldResult& f) {
-  const Meshability found = check_meshability(FieldView(f.mesh, f.features, f.field, f.codes));
+// Kind of operation in the report.
+constexpr const char* judgement = "judge before and after";
+
+DefectCounts count_defects(const FieldResult& f, VerdictMemory& verdicts) {
+  Meshability found = check_meshability(FieldView(f.mesh, f.features, f.field, f.codes));
+  verdicts = std::move(found.verdicts);
   DefectCounts counts{found.bad_edges.size(), found.bad_vertices.size(), {}};
   for (const SingularNode& node : singularity_graph(f.mesh, f.features, f.field, f.codes).nodes)
     ++counts.kinds[name(node.kind)];
@@ -55,7 +60,9 @@ std::string name_of_variation(int attempt) { return variation(attempt).name; }
 
 RepairIterate start_repair(FieldResult smooth) {
   RepairIterate start;
-  start.report.before = count_defects(smooth);
+  const Clock::time_point begin = Clock::now();
+  start.report.before = count_defects(smooth, start.verdicts);
+  start.report.seconds[judgement] += seconds_since(begin);
   start.state.target_length = mean_edge_lengths(smooth.mesh);
   static_cast<FieldResult&>(start.state) = std::move(smooth);
   return start;
@@ -75,7 +82,9 @@ RepairResult repair_field(RepairIterate iterate, const FieldResult& input, const
     schedule.end_iteration();
   }
   schedule.finish();
-  iterate.report.after = count_defects(iterate.state);
+  const Clock::time_point begin = Clock::now();
+  iterate.report.after = count_defects(iterate.state, iterate.verdicts);
+  iterate.report.seconds[judgement] += seconds_since(begin);
   return {std::move(static_cast<FieldResult&>(iterate.state)), std::move(iterate.report)};
 }
 
