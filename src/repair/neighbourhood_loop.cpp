@@ -20,9 +20,11 @@ class Claims {
     ++round_;
     claimed_.resize(tets, 0);
   }
+  bool taken(std::span<const TetId> tets) const {
+    return std::any_of(tets.begin(), tets.end(), [&](TetId t) { return claimed_[t.index()] == round_; });
+  }
   bool claim(std::span<const TetId> footprint) {
-    for (TetId t : footprint)
-      if (claimed_[t.index()] == round_) return false;
+    if (taken(footprint)) return false;
     for (TetId t : footprint) claimed_[t.index()] = round_;
     return true;
   }
@@ -65,7 +67,8 @@ std::vector<char> for_places(RepairState& state, std::span<const Place> places, 
     std::vector<std::size_t> later;
     for (std::size_t i : waiting) {
       if (!alive(state.mesh, places[i])) continue;
-      if (claims.claim(footprint(state, places[i])))
+      // Looking at the stars of the seeds alone spares most of the crowded places their footprints.
+      if (!claims.taken(tets_around(state.mesh, places[i].seeds, 0)) && claims.claim(footprint(state, places[i])))
         tasks.push_back({i, nullptr});
       else
         later.push_back(i);

@@ -1,6 +1,7 @@
 #include "hexfield/repair/repair_field.hpp"
 
 #include "hexfield/base/error.hpp"
+#include "hexfield/base/stopwatch.hpp"
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/mesh/edge_table.hpp"
 #include "hexfield/repair/meshability.hpp"
@@ -20,8 +21,12 @@ std::vector<double> mean_edge_lengths(const TetMesh& mesh) {
   return sum;
 }
 
-DefectCounts count_defects(const RepairState& f) {
-  const Meshability found = check_meshability(f);
+// Kind of operation in the report.
+constexpr const char* judgement = "judge before and after";
+
+DefectCounts count_defects(const RepairState& f, VerdictMemory& verdicts) {
+  Meshability found = check_meshability(f);
+  verdicts = std::move(found.verdicts);
   DefectCounts counts{found.bad_edges.size(), found.bad_vertices.size(), {}};
   for (const SingularNode& node : singularity_graph(f.mesh, f.features, f.field, f.codes).nodes)
     ++counts.kinds[name(node.kind)];
@@ -47,10 +52,12 @@ void RepairWatch::begin(std::size_t tets) {
 
 RepairIterate start_repair(FieldResult smooth, const RepairControl& control) {
   RepairIterate start;
+  const Clock::time_point begin = Clock::now();
   start.state.target_length = mean_edge_lengths(smooth.mesh);
   static_cast<FieldResult&>(start.state) = std::move(smooth);
   start.state.watch = watch_of(control);
-  start.report.before = count_defects(start.state);
+  start.report.before = count_defects(start.state, start.verdicts);
+  start.report.seconds[judgement] += seconds_since(begin);
   return start;
 }
 
@@ -71,7 +78,9 @@ RepairResult repair_field(RepairIterate iterate, const FieldResult& input, const
     schedule.end_iteration();
   }
   schedule.finish();
-  iterate.report.after = count_defects(iterate.state);
+  const Clock::time_point begin = Clock::now();
+  iterate.report.after = count_defects(iterate.state, iterate.verdicts);
+  iterate.report.seconds[judgement] += seconds_since(begin);
   return {std::move(static_cast<FieldResult&>(iterate.state)), std::move(iterate.report)};
 }
 

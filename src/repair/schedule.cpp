@@ -54,17 +54,26 @@ std::vector<VertexId> vertices_of(const std::vector<EdgeKey>& edges) {
 }
 
 // Vertices of special edges that need repair, those with few singular edges first (spec-lmff section 5.5). Zipper nodes
-// on curves wait for a partner: alone they would leave through whatever surface is near.
-std::vector<Place> vertices_to_repair(const RepairState& state) {
+// on curves wait for a partner: alone they would leave through whatever surface is near. `memory` gives the verdicts of
+// one-rings that are as they were and takes all there are now.
+std::vector<Place> vertices_to_repair(const RepairState& state, VerdictMemory& memory) {
   const std::vector<VertexId> all = vertices_of(special_edges(state));
-  std::vector<char> bad(all.size(), 0);
+  VertexRepairOptions options;
+  options.map.memory = &memory;
+  std::vector<VertexNeed> needs(all.size());
   parallel_for(all.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      bad[i] = needs_repair(state, all[i]) && !is_zipper_on_curve(state, all[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      needs[i] = need_of_repair(state, all[i], options);
+      if (needs[i].repair && is_zipper_on_curve(state, all[i])) needs[i].repair = false;
+    }
   });
+  VerdictMemory now;
   std::vector<std::pair<std::size_t, VertexId>> order;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (bad[i]) order.emplace_back(singular_edges_at(state, all[i]).size(), all[i]);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (needs[i].key) now.note(*needs[i].key, needs[i].verdict);
+    if (needs[i].repair) order.emplace_back(singular_edges_at(state, all[i]).size(), all[i]);
+  }
+  memory = std::move(now);
   std::sort(order.begin(), order.end());
   std::vector<Place> places;
   for (const auto& entry : order) places.push_back({{entry.second}, 1});
@@ -117,9 +126,11 @@ void Schedule::repair_edges_and_vertices(bool first_stage) {
     return repair_edges(state_, options).total();
   });
   timed("repair vertices", [&] {
-    const std::vector<Place> places = vertices_to_repair(state_);
-    const auto commits = for_places(state_, places, [](Neighbourhood& copy, std::span<const VertexId> seeds) {
-      return repair_vertex(copy.local, seeds[0]);
+    const std::vector<Place> places = vertices_to_repair(state_, iterate_.verdicts);
+    VertexRepairOptions options;
+    options.map.memory = &iterate_.verdicts;
+    const auto commits = for_places(state_, places, [&](Neighbourhood& copy, std::span<const VertexId> seeds) {
+      return repair_vertex(copy.local, seeds[0], options);
     });
     return std::count(commits.begin(), commits.end(), 1);
   });
@@ -160,7 +171,11 @@ bool Schedule::meshable() {
     defects = unrefuted_defects(state_).size();
     if (defects > 0) return 0;
     const std::vector<EdgeKey> edges = special_edges(state_);
-    const Meshability found = check_meshability(state_, edges, vertices_of(edges));
+    const VerdictMemory maps = iterate_.verdicts.found();
+    VertexMapOptions options;
+    options.memory = &maps;
+    Meshability found = check_meshability(state_, edges, vertices_of(edges), options);
+    iterate_.verdicts = std::move(found.verdicts);
     defects = found.bad_edges.size() + found.bad_vertices.size();
     return 0;
   });

@@ -54,12 +54,16 @@ bool repair_step_by_step(RepairState& local, VertexId v, const VertexRepairOptio
 
 }  // namespace
 
-bool needs_repair(const RepairState& state, VertexId v, const VertexRepairOptions& options) {
+VertexNeed need_of_repair(const RepairState& state, VertexId v, const VertexRepairOptions& options) {
   std::vector<EdgeKey> singular = singular_edges_at(state, v);
   for (const EdgeKey& e : singular)
-    if (state.codes.at(e) == compound_code) return false;
-  if (!singular.empty() && singular.size() <= 4 && !counts_are_good(state, v)) return true;
-  return !vertex_meshable(state, v, options.map);
+    if (state.codes.at(e) == compound_code) return {};
+  if (!singular.empty() && singular.size() <= 4 && !counts_are_good(state, v)) return {true, {}, {}};
+  if (is_trivially_regular(state, v)) return {};
+  VertexNeed need;
+  need.verdict = vertex_verdict(state, v, options.map, nullptr, &need.key);
+  need.repair = need.verdict == VertexVerdict::not_meshable;
+  return need;
 }
 
 bool repair_vertex(RepairState& local, VertexId v, const VertexRepairOptions& options) {

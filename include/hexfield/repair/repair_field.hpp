@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hexfield/base/control.hpp"
+#include "hexfield/repair/meshability.hpp"
 #include "hexfield/repair/repair_state.hpp"
 
 namespace hexfield {
@@ -43,6 +44,7 @@ struct RepairIterate {
   RepairReport report;
   double compound_shrink = 1;  ///< weights that grow while defects of their kind stay
   double zipper_shrink = 1;
+  VerdictMemory verdicts;   ///< on the one-rings of the last tests
   int stale_rounds = 0;     ///< rounds since there were fewest defects
   int fewest_defects = -1;  ///< negative: not counted yet
 };
