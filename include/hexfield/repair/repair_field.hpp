@@ -20,7 +20,7 @@ struct RepairOptions {
   double alignment_weight = 10;  ///< of singular edges to the field, against the other energies of the relocation
   int post_remesh_rounds = 3;    ///< rounds of remeshing of the whole mesh at the end
   /// Work (RepairWatch::work) per tet of the input after which no more operations are begun; 0: no limit.
-  int work_per_tet = 10000;
+  int work_per_tet = 3000;
 };
 
 /// How many edges and vertices are not locally meshable, and the singular defects by kind.
