@@ -113,7 +113,7 @@ class Stage {
   Candidate fitted(const MapProblem& problem, const std::vector<Mat3>& frames) {
     Candidate best = judged(fit(problem, frames));
     if (best.report.valid() || some_tets_are_flat_) return best;
-    make_positive(problem, best.unknowns, frames, monitor_, [&](const std::vector<double>& unknowns) {
+    make_positive(problem, best.unknowns, {}, frames, monitor_, [&](const std::vector<double>& unknowns) {
       keep_better(best, judged(unknowns));
       return best.report.valid();
     });
