@@ -96,6 +96,7 @@ EdgeRepairCounts repair_edges(RepairState& state, const EdgeRepairOptions& optio
     }
     if (options.sectors) counts.sectors += at_edges(state, edges_with_bad_sectors(state), repair_sectors);
     if (options.lift) {
+      counts.lifted += lift_arcs_from_surfaces(state);
       const auto any = [](const EdgeKey&, EdgeCode) { return true; };
       std::vector<EdgeKey> edges = edges_where(state, any);
       std::erase_if(edges, [&](const EdgeKey& e) { return state.features.edges.contains(e) || !in_surface(state, e); });
