@@ -75,7 +75,8 @@ TEST(Ball, TheRepairHearsAStopAndEndsWhenItsWorkIsSpent) {
   const RepairResult whole = repair_field(start_repair(f, control), f, {}, control);
   const int all = asked;
   EXPECT_GT(all, 100);
-  for (limit = 1; limit < all; limit += all / 5) {
+  // Not to the very end: threads that ask at the same time may ask once less or more.
+  for (limit = 1; limit < all - all / 10; limit += all / 5) {
     asked = 0;
     EXPECT_THROW(repair_field(start_repair(f, control), f, {}, control), Error) << limit;
     EXPECT_LT(asked, limit + 1 + threads());

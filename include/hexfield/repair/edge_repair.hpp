@@ -17,9 +17,9 @@ int split_one_ring(RepairState& state, VertexId v);
 /// factorisations the one that leaves the least turning around the edge is taken.
 bool repair_compound_edge(RepairState& state, const EdgeKey& edge);
 
-/// A compound edge is contracted: often it is all that keeps two halves of a node apart. One of its ends takes the place
-/// of the other, where the remeshing may do that (remesh.hpp) and what comes about is a node that hex meshes have, or
-/// has compound edges left.
+/// A compound edge is contracted: often it is all that keeps two halves of a node apart. One of its ends takes the
+/// place of the other, where the remeshing may do that (remesh.hpp) and what comes about is a node that hex meshes
+/// have, or has compound edges left.
 bool contract_compound_edge(RepairState& state, const EdgeKey& edge);
 
 /// An inner edge of |code| >= 2 gives one quarter-turn to a new arc of two edges, such that |code| drops by one.
@@ -71,7 +71,8 @@ struct EdgeRepairCounts {
 
 /// Which of them repair_edges() applies. Stage I of the schedule leaves compound edges inside to shrink (section 5.7).
 struct EdgeRepairOptions {
-  bool contract = true, compound = true, compound_inside = true, index = true, sectors = true, lift = true, triangles = true, push = true;
+  bool contract = true, compound = true, compound_inside = true, index = true, sectors = true, lift = true,
+       triangles = true, push = true;
   int rounds = 6;  ///< at most; ends when a round mends nothing
 };
 
