@@ -60,42 +60,46 @@ void print_rest(const Decomposition& done) {
   }
 }
 
+constexpr double winding_up = 60;  // seconds to write what was reached
+
 ExitCode decompose_command(const DecomposeLine& line) {
   const Clock::time_point start = Clock::now();
   if (line.threads > 0) set_threads(line.threads);
-  return on_rank_zero([&] {
-    const auto [file, picture] = outputs(line.output);
-    HexMesh mesh = read_hex_mesh(line.input);
-    require_good_hexes(line.input, mesh);
-    for (int k = 0; k < line.pad; ++k) mesh = pad(mesh, build_hex_complex(mesh));
-    HexSurface surface;
-    if (!line.free_boundary) surface = complete_hex_features(mesh, line.feature_angle);
-    const HexShape shape = line.free_boundary ? HexShape{} : HexShape{&surface.mesh, &surface.features};
-    fmt::print("before: {} hexes, smallest scaled Jacobian {:.4f}\n", mesh.hexes.size(), quality(mesh).min);
-    print_graph(hex_singular_graph(mesh, build_hex_complex(mesh)));
-    DecomposeOptions options = line.options;
-    if (line.search == "greedy") options.search = DecomposeOptions::Search::greedy;
-    Control control;
-    control.stop_requested = [&] {
-      return stop_signal() != 0 || (line.time_limit > 0 && seconds_since(start) > line.time_limit);
-    };
-    const Decomposition done = decompose_on_shape(mesh, shape, options, control);
-    for (std::size_t k = 0; k < done.steps.size(); ++k)
-      fmt::print("sheet {}: {} quads, measure {}\n", k + 1, done.steps[k].quads.size(), done.steps[k].measure);
-    const HexMesh& result = done.mesh;
-    const HexSingularGraph graph = hex_singular_graph(result, build_hex_complex(result));
-    fmt::print("after {} sheets: {} hexes, smallest scaled Jacobian {:.4f}\n", done.steps.size(), result.hexes.size(),
-               quality(result).min);
-    print_graph(graph);
-    print_rest(done);
-    write_hex_mesh(file, result);
-    write_graph(picture, result, graph);
-    if (!check(result).empty()) return ExitCode::bad_hex_mesh;
-    if (!done.stopped) return ExitCode::success;
-    throw Error(ExitCode::stopped,
-                fmt::format("Stopped by {}; {} holds what was reached, and can be decomposed further.",
-                            stop_signal() != 0 ? "a signal" : "the time limit", file.string()));
-  });
+  return on_rank_zero(
+      [&] {
+        const auto [file, picture] = outputs(line.output);
+        HexMesh mesh = read_hex_mesh(line.input);
+        require_good_hexes(line.input, mesh);
+        for (int k = 0; k < line.pad; ++k) mesh = pad(mesh, build_hex_complex(mesh));
+        HexSurface surface;
+        if (!line.free_boundary) surface = complete_hex_features(mesh, line.feature_angle);
+        const HexShape shape = line.free_boundary ? HexShape{} : HexShape{&surface.mesh, &surface.features};
+        fmt::print("before: {} hexes, smallest scaled Jacobian {:.4f}\n", mesh.hexes.size(), quality(mesh).min);
+        print_graph(hex_singular_graph(mesh, build_hex_complex(mesh)));
+        DecomposeOptions options = line.options;
+        if (line.search == "greedy") options.search = DecomposeOptions::Search::greedy;
+        Control control;
+        control.stop_requested = [&] {
+          return stop_signal() != 0 || (line.time_limit > 0 && seconds_since(start) > line.time_limit);
+        };
+        const Decomposition done = decompose_on_shape(mesh, shape, options, control);
+        for (std::size_t k = 0; k < done.steps.size(); ++k)
+          fmt::print("sheet {}: {} quads, measure {}\n", k + 1, done.steps[k].quads.size(), done.steps[k].measure);
+        const HexMesh& result = done.mesh;
+        const HexSingularGraph graph = hex_singular_graph(result, build_hex_complex(result));
+        fmt::print("after {} sheets: {} hexes, smallest scaled Jacobian {:.4f}\n", done.steps.size(),
+                   result.hexes.size(), quality(result).min);
+        print_graph(graph);
+        print_rest(done);
+        write_hex_mesh(file, result);
+        write_graph(picture, result, graph);
+        if (!check(result).empty()) return ExitCode::bad_hex_mesh;
+        if (!done.stopped) return ExitCode::success;
+        throw Error(ExitCode::stopped,
+                    fmt::format("Stopped by {}; {} holds what was reached, and can be decomposed further.",
+                                stop_signal() != 0 ? "a signal" : "the time limit", file.string()));
+      },
+      winding_up);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,12 @@
 #include "hexfield/base/agree.hpp"
 #include "hexfield/base/session.hpp"
 #include "hexfield/base/signals.hpp"
+#include "hexfield/base/watchdog.hpp"
 #include "hexfield/pipeline/version.hpp"
 
 namespace hexfield::apps {
+
+namespace {}  // namespace
 
 std::string version_text() {
   std::string text = fmt::format("hexfield {} ({})\n", program_version(), program_git());
@@ -21,13 +25,22 @@ std::string version_text() {
   return text + fmt::format("  {:<20} {}", "CLI11", CLI11_VERSION);
 }
 
-ExitCode on_rank_zero(const std::function<ExitCode()>& work) {
+void end_stopped(const std::string& sentence) {
+  fmt::print(stderr, "hexfield: {}\n", sentence);
+  std::fflush(stderr);
+  std::_Exit(static_cast<int>(ExitCode::stopped));
+}
+
+ExitCode on_rank_zero(const std::function<ExitCode()>& work, double patience) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   ExitCode code = ExitCode::success;
-  agree(MPI_COMM_WORLD, [&] {
-    if (rank == 0) code = work();
-  });
+  {
+    const Watchdog dog([] { return stop_signal() != 0; }, patience, [] { end_stopped("Stopped by a signal."); });
+    agree(MPI_COMM_WORLD, [&] {
+      if (rank == 0) code = work();
+    });
+  }
   int number = static_cast<int>(code);
   MPI_Bcast(&number, 1, MPI_INT, 0, MPI_COMM_WORLD);
   return static_cast<ExitCode>(number);

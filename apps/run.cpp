@@ -72,7 +72,7 @@ ExitCode run_command(const RunLine& line) {
   const RunOptions options = options_of(line);
   if (options.threads > 0) set_threads(options.threads);
   Log log(MPI_COMM_WORLD, line.quiet ? LogLevel::warning : (line.verbose ? LogLevel::debug : LogLevel::info));
-  const Outcome outcome = run(MPI_COMM_WORLD, options, log);
+  const Outcome outcome = run(MPI_COMM_WORLD, options, log, end_stopped);
   const LogLevel level = outcome.code == ExitCode::success ? LogLevel::info : LogLevel::error;
   log.say(level, "hexfield: " + outcome.sentence);
   log.flush();

@@ -152,6 +152,42 @@ AlignReport align_field(const DistributedMesh& mesh, FrameField& field, std::spa
 
 namespace {
 
+// Places of listed tets: a table over the range of their ids where the list is no small part of it.
+class Places {
+ public:
+  explicit Places(std::span<const TetId> tets) {
+    if (tets.empty()) return;
+    const auto [low, high] = std::minmax_element(tets.begin(), tets.end());
+    first_ = low->value;
+    if (const auto range = static_cast<std::size_t>(high->value - first_) + 1; range <= 16 * tets.size())
+      table_.assign(range, -1);
+    else
+      map_.reserve(tets.size());
+    for (std::size_t k = 0; k < tets.size(); ++k) {
+      const auto place = static_cast<std::int32_t>(k);
+      if (table_.empty())
+        map_.emplace(tets[k], place);
+      else
+        table_[static_cast<std::size_t>(tets[k].value - first_)] = place;
+    }
+  }
+
+  // -1 for a tet that is not listed.
+  std::int32_t operator()(TetId t) const {
+    if (!table_.empty()) {
+      const std::int64_t i = std::int64_t{t.value} - first_;
+      return i < 0 || i >= static_cast<std::int64_t>(table_.size()) ? -1 : table_[static_cast<std::size_t>(i)];
+    }
+    const auto found = map_.find(t);
+    return found == map_.end() ? -1 : found->second;
+  }
+
+ private:
+  std::int32_t first_ = 0;
+  std::vector<std::int32_t> table_;
+  std::unordered_map<TetId, std::int32_t> map_;  // looked up only
+};
+
 // What Algorithm 1 needs of the listed tets, in their order.
 struct SubmeshSweep {
   struct Neighbour {
@@ -161,34 +197,35 @@ struct SubmeshSweep {
   };
   std::vector<std::array<Neighbour, 4>> neighbours;
   std::vector<FrameConstraint> constraints;  // count 0: none
+  std::vector<FrameProjection> projections;  // of the constraints
   std::vector<char> active;                  // a frame that it depends on has turned
 
   SubmeshSweep(const TetMesh& mesh, const FrameField& field, std::span<const AxisConstraint> axes,
                std::span<const TetId> tets)
-      : neighbours(tets.size()), constraints(tets.size()), active(tets.size(), 1) {
-    std::unordered_map<TetId, std::int32_t> place;
-    place.reserve(tets.size());
-    for (std::size_t k = 0; k < tets.size(); ++k) place.emplace(tets[k], static_cast<std::int32_t>(k));
+      : neighbours(tets.size()), constraints(tets.size()), projections(tets.size()), active(tets.size(), 1) {
+    const Places place(tets);
     for (const auto& [tet, c] : frame_constraints(axes))
-      if (const auto found = place.find(tet); found != place.end())
-        constraints[static_cast<std::size_t>(found->second)] = c;
+      if (const std::int32_t k = place(tet); k >= 0) {
+        constraints[static_cast<std::size_t>(k)] = c;
+        projections[static_cast<std::size_t>(k)] = projection_of(c);
+      }
     for (std::size_t k = 0; k < tets.size(); ++k)
       for (int f = 0; f < 4; ++f) {
         const HalfFaceId o = mesh.opposite_half_face(HalfFaceId(tets[k], f));
         Neighbour& n = neighbours[k][static_cast<std::size_t>(f)];
         n = {-1, -1, octahedral::identity};
-        if (!o.valid()) continue;
-        const auto found = place.find(o.tet());
-        n = {o.tet().value, found == place.end() ? -1 : found->second, field.matching(o)};
+        if (o.valid()) n = {o.tet().value, place(o.tet()), field.matching(o)};
       }
   }
 
   // The frames around tet k in its chart; returns how many there are.
   std::size_t around(const FrameField& field, std::size_t k, std::array<Eigen::Vector4d, 4>& frames) const {
     std::size_t count = 0;
-    for (const Neighbour& n : neighbours[k])
-      if (n.tet >= 0)
-        frames[count++] = (field.frames[static_cast<std::size_t>(n.tet)] * octahedral::quaternion(n.from)).coeffs();
+    for (const Neighbour& n : neighbours[k]) {
+      if (n.tet < 0) continue;
+      const Quaternion& q = field.frames[static_cast<std::size_t>(n.tet)];
+      frames[count++] = n.from == octahedral::identity ? q.coeffs() : (q * octahedral::quaternion(n.from)).coeffs();
+    }
     return count;
   }
 };
@@ -202,7 +239,7 @@ std::optional<Quaternion> relaxed(const SubmeshSweep& sub, const FrameField& fie
   for (std::size_t n = 0; n < count; ++n) sum += around[n].dot(sum) < 0 ? Eigen::Vector4d(-around[n]) : around[n];
   const double norm = sum.norm();
   Quaternion q = norm > 1e-12 ? Quaternion(Eigen::Vector4d(sum / norm)) : own;
-  if (sub.constraints[k].count > 0) q = project_frame(q, sub.constraints[k]);
+  if (sub.constraints[k].count > 0) q = project_frame(q, sub.projections[k]);
   q = limited(own, q, limits.turn);
   for (std::size_t n = 0; n < count; ++n) {
     const double dot = std::abs(around[n].dot(q.coeffs()));

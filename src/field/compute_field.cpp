@@ -8,6 +8,7 @@
 #include "hexfield/field/edge_codes.hpp"
 #include "hexfield/field/matchings.hpp"
 #include "hexfield/field/presplit.hpp"
+#include "hexfield/field/settle_codes.hpp"
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/field/tet_polish.hpp"
 #include "hexfield/field/transfer.hpp"
@@ -125,6 +126,7 @@ FieldResult compute_field(MPI_Comm comm, TetMesh mesh, Features features, const 
     compute_matchings(result.mesh, result.field);
     result.codes = compute_codes(result.mesh, result.features, result.field);
     unify_codes(result.mesh, result.field, result.codes);
+    settle_blunt_edges(result.mesh, result.features, result.field, result.codes);
     isolate(result);
   });
   now_at("aligning to singular edges");

@@ -169,19 +169,21 @@ Label outgoing_label(const TetMesh& mesh, const FrameField& field, const EdgeRin
   return dot < 0 ? octahedral::negate(axis) : axis;
 }
 
-std::vector<std::pair<EdgeKey, TetId>> all_edges(const TetMesh& mesh) {
-  // A bucket per lower vertex, each sorted by the higher one and then by tet: no sort of the whole list.
+namespace {
+
+// Edges of the tets that `for_each_tet` visits, each with its smallest tet, ordered by key. A bucket per lower vertex,
+// each sorted by the higher one and then by tet: no sort of the whole list.
+template <class ForEachTet>
+std::vector<std::pair<EdgeKey, TetId>> bucketed_edges(const TetMesh& mesh, const ForEachTet& for_each_tet) {
   using Entry = std::pair<VertexId, TetId>;
   const std::size_t n = mesh.num_vertices();
   std::vector<std::size_t> starts(n + 1, 0);
   auto for_each_edge = [&](const auto& visit) {
-    for (std::size_t i = 0; i < mesh.num_tets(); ++i) {
-      const TetId t(static_cast<std::int64_t>(i));
-      if (!mesh.alive(t)) continue;
+    for_each_tet([&](TetId t) {
       const auto& v = mesh.vertices(t);
       for (const auto& e : tet_edge_vertices)
         visit(edge_key(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]), t);
-    }
+    });
   };
   for_each_edge([&](const EdgeKey& e, TetId) { ++starts[e[0].index() + 1]; });
   for (std::size_t v = 0; v < n; ++v) starts[v + 1] += starts[v];
@@ -207,7 +209,20 @@ std::vector<std::pair<EdgeKey, TetId>> all_edges(const TetMesh& mesh) {
   return edges;
 }
 
+}  // namespace
+
+std::vector<std::pair<EdgeKey, TetId>> all_edges(const TetMesh& mesh) {
+  return bucketed_edges(mesh, [&](const auto& visit) {
+    for (std::size_t i = 0; i < mesh.num_tets(); ++i)
+      if (const TetId t(static_cast<std::int64_t>(i)); mesh.alive(t)) visit(t);
+  });
+}
+
 std::vector<std::pair<EdgeKey, TetId>> edges_with_tets(const TetMesh& mesh, std::span<const TetId> tets) {
+  if (2 * tets.size() > mesh.num_vertices())
+    return bucketed_edges(mesh, [&](const auto& visit) {
+      for (TetId t : tets) visit(t);
+    });
   std::vector<std::pair<EdgeKey, TetId>> edges;
   edges.reserve(6 * tets.size());
   for (TetId t : tets) {

@@ -43,6 +43,11 @@ class Pieces {
     }
     return root;
   }
+  // Itself for a root.
+  std::int32_t parent(std::size_t i, octahedral::Rotation& to_parent) const {
+    to_parent = rotation_[i];
+    return parent_[i];
+  }
   // False when the two are joined already by another rotation.
   bool join(const Link& link) {
     octahedral::Rotation a = 0;
@@ -72,6 +77,26 @@ class Pieces {
   throw Error(ExitCode::bad_hex_mesh, fmt::format("Tet {}: {}", t.value, why), {t.value}, {centroid(mesh, t)});
 }
 
+// Items of one tet of which many have a row in common, one after the other.
+class RowFinder {
+ public:
+  RowFinder(const RowTable& table, TetId t) : table_(table), tet_(t) {}
+  std::int64_t item(const Lattice3& x) {
+    if (!known_ || x[1] != y_ || x[2] != z_) {
+      row_ = table_.find(tet_, x[1], x[2]);
+      y_ = x[1], z_ = x[2], known_ = true;
+    }
+    return row_ != nullptr && x[0] >= row_->begin && x[0] < row_->end ? row_->first + (x[0] - row_->begin) : -1;
+  }
+
+ private:
+  const RowTable& table_;
+  TetId tet_;
+  const Row* row_ = nullptr;
+  std::int32_t y_ = 0, z_ = 0;
+  bool known_ = false;
+};
+
 std::vector<std::vector<Link>> find_links(const TetMesh& mesh, const FixedMap& map, const RowTable& pieces) {
   const std::size_t n = mesh.num_tets();
   std::vector<std::vector<Link>> links((n + grain - 1) / grain);
@@ -87,11 +112,12 @@ std::vector<std::vector<Link>> find_links(const TetMesh& mesh, const FixedMap& m
         const LatticeTransition& transition = map.transition(h);
         cubes_of_triangle(map, {map.corner(t, v[0]), map.corner(t, v[1]), map.corner(t, v[2])})
             .for_each_row([&](std::int32_t y, std::int32_t z, std::int32_t first, std::int32_t last) {
+              RowFinder here(pieces, t);
+              RowFinder there(pieces, o.tet());
               for (std::int32_t x = first; x < last; ++x) {
                 const Lattice3 cube{x, y, z};
-                out.push_back({static_cast<std::int32_t>(pieces.item(t, cube)),
-                               static_cast<std::int32_t>(pieces.item(o.tet(), transition.cube(cube))),
-                               transition.rotation});
+                out.push_back({static_cast<std::int32_t>(here.item(cube)),
+                               static_cast<std::int32_t>(there.item(transition.cube(cube))), transition.rotation});
               }
             });
       }
@@ -132,21 +158,22 @@ void number_cells(const TetMesh& mesh, const FixedMap& map, const std::vector<ch
         fail(mesh, cells.tet(static_cast<std::size_t>(link.from)), "a cube of the integer-grid map turns into itself.");
     }
   cells.cell.resize(n);
-  cells.to_cell.resize(n);
+  cells.to_cell.assign(n, octahedral::identity);
   octahedral::Rotation unused = 0;
   for (std::size_t p = 0; p < touched.size(); ++p)
     if (touched[p] != 0) touched[static_cast<std::size_t>(pieces.find(static_cast<std::int32_t>(p), unused))] = 1;
+  // Parents come before their children.
   for (std::size_t p = 0; p < n; ++p) {
-    const std::int32_t root = pieces.find(static_cast<std::int32_t>(p), cells.to_cell[p]);
-    if (!touched.empty() && touched[static_cast<std::size_t>(root)] != 0) {
+    octahedral::Rotation to_parent = octahedral::identity;
+    const auto parent = static_cast<std::size_t>(pieces.parent(p, to_parent));
+    if (parent != p) {
+      cells.cell[p] = cells.cell[parent];
+      cells.to_cell[p] = octahedral::product(cells.to_cell[parent], to_parent);
+    } else if (!touched.empty() && touched[p] != 0) {
       cells.cell[p] = -1;
-      continue;
-    }
-    if (static_cast<std::size_t>(root) == p) {
-      cells.cell[p] = static_cast<std::int32_t>(cells.root.size());
-      cells.root.push_back(root);
     } else {
-      cells.cell[p] = cells.cell[static_cast<std::size_t>(root)];
+      cells.cell[p] = static_cast<std::int32_t>(cells.root.size());
+      cells.root.push_back(static_cast<std::int32_t>(p));
     }
   }
 }
@@ -236,20 +263,17 @@ void find_corners(const TetMesh& mesh, const LatticeVertices& vertices, bool tol
 
 }  // namespace
 
-std::uint8_t rotate_corner(octahedral::Rotation r, std::uint8_t bits) {
-  static const auto table = [] {
-    std::array<std::array<std::uint8_t, 8>, octahedral::order> t{};
-    for (octahedral::Rotation rotation = 0; rotation < octahedral::order; ++rotation)
-      for (std::uint8_t b = 0; b < 8; ++b) {
-        const Lattice3 centred{(b & 1) * 2 - 1, (b >> 1 & 1) * 2 - 1, (b >> 2 & 1) * 2 - 1};
-        const Lattice3 image = rotate(rotation, centred);
-        t[rotation][b] =
-            static_cast<std::uint8_t>((image[0] > 0 ? 1 : 0) | (image[1] > 0 ? 2 : 0) | (image[2] > 0 ? 4 : 0));
-      }
-    return t;
-  }();
-  return table[r][bits];
-}
+const std::array<std::array<std::uint8_t, 8>, octahedral::order> corner_rotations = [] {
+  std::array<std::array<std::uint8_t, 8>, octahedral::order> t{};
+  for (octahedral::Rotation rotation = 0; rotation < octahedral::order; ++rotation)
+    for (std::uint8_t b = 0; b < 8; ++b) {
+      const Lattice3 centred{(b & 1) * 2 - 1, (b >> 1 & 1) * 2 - 1, (b >> 2 & 1) * 2 - 1};
+      const Lattice3 image = rotate(rotation, centred);
+      t[rotation][b] =
+          static_cast<std::uint8_t>((image[0] > 0 ? 1 : 0) | (image[1] > 0 ? 2 : 0) | (image[2] > 0 ? 4 : 0));
+    }
+  return t;
+}();
 
 std::optional<std::array<int, 2>> edge_vertices(const Cells& cells, TetId t, std::size_t axis, const Lattice3& from) {
   for (unsigned quadrant = 0; quadrant < 4; ++quadrant) {

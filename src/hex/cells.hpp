@@ -30,8 +30,9 @@ struct Cells {
   TetId tet(std::size_t piece) const { return pieces.rows[static_cast<std::size_t>(piece_row[piece])].tet; }
 };
 
-/// Corner bits of a cube after its rotation about its centre.
-std::uint8_t rotate_corner(octahedral::Rotation r, std::uint8_t bits);
+/// Corner bits of a cube after its rotation about its centre, by rotation and bits.
+extern const std::array<std::array<std::uint8_t, 8>, octahedral::order> corner_rotations;
+inline std::uint8_t rotate_corner(octahedral::Rotation r, std::uint8_t bits) { return corner_rotations[r][bits]; }
 
 /// The ends of the hex edge that runs from lattice point `from` of tet t's chart along +axis, found through any piece
 /// of the tet that touches it; nullopt when there is none that belongs to a hex.

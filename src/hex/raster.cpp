@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/mesh/tet_mesh.hpp"
@@ -85,31 +86,110 @@ void add_flat_rows(const FixedMap& map, TetId t, const ItemsOfTriangle& items_of
   }
 }
 
+// Layers of rows of one z per tet, for find().
+void add_layers(RowTable& table) {
+  const std::size_t n = table.tet_rows.size() - 1;
+  table.tet_layers.assign(n + 1, 0);
+  for (std::size_t t = 0; t < n; ++t) {
+    const std::size_t begin = table.tet_rows[t];
+    const std::size_t end = table.tet_rows[t + 1];
+    for (std::size_t r = begin; r < end; ++r)
+      for (auto z = r == begin ? table.rows[r].z - 1 : table.rows[r - 1].z; z < table.rows[r].z; ++z)
+        table.layers.push_back(r);
+    table.tet_layers[t + 1] = table.layers.size();
+  }
+  table.layers.push_back(table.rows.size());
+}
+
 template <class Fill>
 RowTable rasterise(const FixedMap& map, const Fill& fill) {
   constexpr std::size_t grain = 256;
   const std::size_t n = map.corners.size();
   std::vector<std::vector<Row>> pieces((n + grain - 1) / grain);
-  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) fill(TetId(t), pieces[begin / grain]);
-  });
+  std::vector<std::int64_t> sizes(pieces.size(), 0);
   RowTable table;
   table.tet_rows.assign(n + 1, 0);
-  std::size_t total = 0;
-  for (const auto& piece : pieces) total += piece.size();
-  table.rows.reserve(total);
-  for (auto& piece : pieces) {
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Row>& piece = pieces[begin / grain];
+    for (std::size_t t = begin; t < end; ++t) {
+      const std::size_t before = piece.size();
+      fill(TetId(t), piece);
+      table.tet_rows[t + 1] = piece.size() - before;
+    }
+    for (const Row& row : piece) sizes[begin / grain] += row.end - row.begin;
+  });
+  for (std::size_t t = 0; t < n; ++t) table.tet_rows[t + 1] += table.tet_rows[t];
+  for (std::int64_t& size : sizes) table.size += std::exchange(size, table.size);
+  table.rows.resize(table.tet_rows[n]);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t) {
+    std::vector<Row>& piece = pieces[begin / grain];
+    std::int64_t first = sizes[begin / grain];
+    std::size_t r = table.tet_rows[begin];
     for (Row& row : piece) {
-      row.first = table.size;
-      table.size += row.end - row.begin;
-      ++table.tet_rows[row.tet.index() + 1];
-      table.rows.push_back(row);
+      row.first = first;
+      first += row.end - row.begin;
+      table.rows[r++] = row;
     }
     piece = {};
-  }
-  for (std::size_t t = 0; t < n; ++t) table.tet_rows[t + 1] += table.tet_rows[t];
+  });
+  add_layers(table);
   return table;
 }
+
+/// Bounds, in double precision, of the items of a convex set along one axis by their place on the later ones; bounds
+/// by one coordinate alone are left to the box.
+class Bounds {
+ public:
+  Bounds(const ConvexItems& items, std::size_t axis) : low_(items.low[axis]), high_(items.high[axis]) {
+    const auto unit = static_cast<double>(items.one);
+    for (std::size_t k = 0; k < items.count; ++k) {
+      const auto& n = items.half_spaces[k].normal();
+      if (n[axis] == 0 || (axis == 1 && n[0] != 0) || (n[1] == 0 && n[2] == 0)) continue;
+      if (axis == 1 && n[2] == 0) continue;
+      const auto at = [&](std::size_t a) {
+        const bool far = items.kind == ConvexItems::Kind::cubes && n[a] > 0;
+        return static_cast<double>(items.half_spaces[k].base()[a]) / unit - (far ? 1 : 0);
+      };
+      Bound& b = bounds_[count_++];
+      b = {at(axis), axis == 0 ? n[1] / n[0] : 0, at(1), n[2] / n[axis], at(2), n[axis] > 0};
+    }
+  }
+
+  /// Items outside [begin, last] are surely out, those in [sure_begin, sure_last] surely in.
+  struct Range {
+    std::int32_t begin, last, sure_begin, sure_last;
+  };
+  Range at(std::int32_t y, std::int32_t z) const {
+    double low = low_ - 1.0, sure_low = low, high = high_ + 1.0, sure_high = high;
+    for (std::size_t k = 0; k < count_; ++k) {
+      const Bound& b = bounds_[k];
+      const double from_y = b.by_y * (y - b.y);
+      const double from_z = b.by_z * (z - b.z);
+      const double x = b.x - (from_y + from_z);
+      // Ten roundings at most; the rest is for comfort.
+      const double margin = 1e-6 + 4e-15 * (std::abs(b.x) + std::abs(from_y) + std::abs(from_z));
+      if (b.lower) {
+        low = std::max(low, x - margin);
+        sure_low = std::max(sure_low, x + margin);
+      } else {
+        high = std::min(high, x + margin);
+        sure_high = std::min(sure_high, x - margin);
+      }
+    }
+    const auto whole = [&](double x) { return static_cast<std::int32_t>(std::clamp(x, low_ - 1.0, high_ + 1.0)); };
+    return {std::max(low_, whole(std::ceil(low))), std::min(high_, whole(std::floor(high))),
+            std::max(low_, whole(std::floor(sure_low)) + 1), std::min(high_, whole(std::ceil(sure_high)) - 1)};
+  }
+
+ private:
+  struct Bound {
+    double x, by_y, y, by_z, z;
+    bool lower;
+  };
+  std::array<Bound, 20> bounds_;
+  std::size_t count_ = 0;
+  std::int32_t low_, high_;
+};
 
 }  // namespace
 
@@ -126,12 +206,18 @@ std::array<HalfSpace, 4> inner_half_spaces(const std::array<Fixed3, 4>& c) {
 }
 
 const Row* RowTable::find(TetId t, std::int32_t y, std::int32_t z) const {
-  const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(tet_rows[t.index()]);
-  const auto end = rows.begin() + static_cast<std::ptrdiff_t>(tet_rows[t.index() + 1]);
-  const auto row = std::lower_bound(
-      begin, end, std::pair(z, y),
-      [](const Row& r, const std::pair<std::int32_t, std::int32_t>& k) { return std::pair(r.z, r.y) < k; });
-  return row != end && row->y == y && row->z == z ? &*row : nullptr;
+  const std::size_t layer = tet_layers[t.index()];
+  const std::size_t num_layers = tet_layers[t.index() + 1] - layer;
+  if (num_layers == 0) return nullptr;
+  const std::int64_t above = std::int64_t{z} - rows[layers[layer]].z;
+  if (above < 0 || above >= static_cast<std::int64_t>(num_layers)) return nullptr;
+  const std::size_t begin = layers[layer + static_cast<std::size_t>(above)];
+  const std::size_t end = layers[layer + static_cast<std::size_t>(above) + 1];
+  if (begin == end || y < rows[begin].y) return nullptr;
+  // Without gaps in y this is the row.
+  std::size_t row = std::min(begin + static_cast<std::size_t>(std::int64_t{y} - rows[begin].y), end - 1);
+  while (rows[row].y > y) --row;
+  return rows[row].y == y ? &rows[row] : nullptr;
 }
 
 bool ConvexItems::contains(const Lattice3& x) const {
@@ -145,42 +231,24 @@ bool ConvexItems::contains(const Lattice3& x) const {
   return true;
 }
 
-// A range of x that surely holds all items of the row, by double precision and a margin.
-std::array<std::int32_t, 2> ConvexItems::estimate(std::int32_t y, std::int32_t z) const {
-  double low_x = low[0];
-  double high_x = high[0];
-  const auto unit = static_cast<double>(one);
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto& n = half_spaces[k].normal();
-    const Fixed3& base = half_spaces[k].base();
-    const auto offset = [&](std::size_t a, std::int32_t x) {
-      return static_cast<double>((x + (kind == Kind::cubes && n[a] > 0 ? 1 : 0)) * one - base[a]);
-    };
-    const double terms[2] = {n[1] * offset(1, y), n[2] * offset(2, z)};
-    if (n[0] == 0) {
-      if (terms[0] + terms[1] < -1e-15 * (std::abs(terms[0]) + std::abs(terms[1]))) return {0, -1};
-      continue;
-    }
-    const double margin = 1e-6 + 1e-15 * (std::abs(terms[0]) + std::abs(terms[1])) / (std::abs(n[0]) * unit);
-    const double x = (static_cast<double>(base[0]) - (terms[0] + terms[1]) / n[0]) / unit;
-    if (n[0] > 0)
-      low_x = std::max(low_x, x - margin - (kind == Kind::cubes ? 1 : 0));
-    else
-      high_x = std::min(high_x, x + margin);
-  }
-  if (!(low_x <= high_x)) return {0, -1};
-  return {static_cast<std::int32_t>(std::ceil(low_x)), static_cast<std::int32_t>(std::floor(high_x))};
-}
-
 void ConvexItems::for_each_row(
     const std::function<void(std::int32_t, std::int32_t, std::int32_t, std::int32_t)>& row) const {
-  for (std::int32_t z = low[2]; z <= high[2]; ++z)
-    for (std::int32_t y = low[1]; y <= high[1]; ++y) {
-      auto [begin, last] = estimate(y, z);
-      while (begin <= last && !contains({begin, y, z})) ++begin;
-      while (begin < last && !contains({last, y, z})) --last;
+  const Bounds by_z(*this, 1);
+  const Bounds by_yz(*this, 0);
+  for (std::int32_t z = low[2]; z <= high[2]; ++z) {
+    const Bounds::Range ys = by_z.at(0, z);
+    for (std::int32_t y = ys.begin; y <= ys.last; ++y) {
+      const Bounds::Range xs = by_yz.at(y, z);
+      std::int32_t begin = xs.begin;
+      std::int32_t last = xs.last;
+      const bool sure = xs.sure_begin == begin && xs.sure_last == last && y >= ys.sure_begin && y <= ys.sure_last;
+      if (!sure) {
+        while (begin <= last && !contains({begin, y, z})) ++begin;
+        while (begin < last && !contains({last, y, z})) --last;
+      }
       if (begin <= last) row(y, z, begin, last + 1);
     }
+  }
 }
 
 ConvexItems cubes_of_tet(const FixedMap& map, TetId t) {

@@ -24,7 +24,9 @@ struct Row {
 struct RowTable {
   std::vector<Row> rows;
   std::vector<std::size_t> tet_rows;  ///< first row per tet, and one more
-  std::int64_t size = 0;              ///< number of items
+  /// Per tet its first layer, and one more; first row per layer of one z, without gaps in z, and one more.
+  std::vector<std::size_t> tet_layers, layers;
+  std::int64_t size = 0;  ///< number of items
 
   /// The row of tet t at (y, z), or nullptr.
   const Row* find(TetId t, std::int32_t y, std::int32_t z) const;
@@ -52,9 +54,6 @@ struct ConvexItems {
   bool contains(const Lattice3& x) const;
   /// Calls row(y, z, begin, end) for all non-empty rows, z outermost, both ascending.
   void for_each_row(const std::function<void(std::int32_t, std::int32_t, std::int32_t, std::int32_t)>& row) const;
-
- private:
-  std::array<std::int32_t, 2> estimate(std::int32_t y, std::int32_t z) const;
 };
 
 /// The unit cubes whose interior meets the interior of the tet. By the separating-axis theorem for two convex

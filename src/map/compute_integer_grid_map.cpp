@@ -40,7 +40,28 @@ struct Rounded {
   double scale = 1;
   std::vector<double> integers;
   double hexes = 0;  // volume of the map that follows the rounding linearly
+  std::vector<Mat3> frames = {};
 };
+
+Mat3 edges_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  Mat3 edges;
+  edges << b - a, c - a, d - a;
+  return edges;
+}
+
+// Combed frames whose inverses are the Jacobians of the map, stretched tet by tet.
+std::vector<Mat3> stretched_frames(const TetMesh& mesh, const CutGraph& cut, const SeamlessMap& map,
+                                   const std::vector<Vec3>& stretches) {
+  std::vector<Mat3> frames;
+  for (std::size_t t = 0; t < stretches.size(); ++t) {
+    const auto& f = map.uvw[t];
+    const auto& v = mesh.vertices(TetId(t));
+    const Mat3 image = stretches[t].asDiagonal() * edges_of(f[0], f[1], f[2], f[3]);
+    const Mat3 domain = edges_of(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+    frames.push_back(domain * image.inverse() * octahedral::matrix(cut.gauges[t]));
+  }
+  return frames;
+}
 
 std::vector<double> scaled(const std::vector<double>& y, double scale) {
   std::vector<double> result = y;
@@ -108,6 +129,7 @@ class Stage {
   IgmResult run(const SeamlessMap& map, const IgmOptions& options) {
     choose_integers_ = options.choose_integers;
     tries_ = options.tries;
+    map_ = &map;
     agree(comm_, [&] {
       if (root()) seamless_ = prepare(mesh_, features_, codes_, map, options);
     });
@@ -163,12 +185,14 @@ class Stage {
     if (!choose_integers_) return round_near(mesh_, seamless_, scale);
     const auto choice = choose_integers_(seamless_.space, seamless_.map_volume * std::pow(scale, 3));
     if (!choice) return std::nullopt;
-    return Rounded{choice->scale, choice->integers, choice->hexes};
+    return Rounded{choice->scale, choice->integers, choice->hexes,
+                   stretched_frames(mesh_, seamless_.space.cut, *map_, choice->stretches)};
   }
 
   bool try_integers(const MapProblem& problem, Rounded& rounded) {
     IntegerGoal goal;
     goal.integers = rounded.integers;
+    goal.frames = std::move(rounded.frames);
     if (root()) {
       goal.start = scaled(seamless_.unknowns, rounded.scale);
       goal.edge = std::cbrt(seamless_.domain_volume / seamless_.map_volume) / rounded.scale;
@@ -218,6 +242,7 @@ class Stage {
   SolveMonitor monitor_;
   std::function<std::optional<IntegerChoice>(const ConformingSpace&, double)> choose_integers_;
   int tries_ = 1;
+  const SeamlessMap* map_ = nullptr;
   Seamless seamless_;
   IgmResult result_;
 };

@@ -25,6 +25,9 @@ constexpr int max_idle_stages = 2;
 /// ... which has at most this share of the defects of the best one before.
 constexpr double progress_factor = 0.9;
 
+/// Work (SolveMonitor) after which no better map is searched for: two to three milliseconds per tet.
+constexpr long max_work = 2000;
+
 /// A map of the conforming space and what verify_map() says of it.
 struct Candidate {
   std::vector<double> unknowns;  // rank 0
@@ -51,7 +54,9 @@ class Stage {
         codes_(codes),
         options_(options),
         control_(control),
-        monitor_(control, "seamless") {}
+        monitor_(control, "seamless") {
+    monitor_.limit_work(max_work);
+  }
 
   SeamlessResult run() {
     agree(comm_, [&] {
@@ -108,7 +113,7 @@ class Stage {
   Candidate fitted(const MapProblem& problem, const std::vector<Mat3>& frames) {
     Candidate best = judged(fit(problem, frames));
     if (best.report.valid() || some_tets_are_flat_) return best;
-    make_positive(problem, best.unknowns, frames, monitor_, [&](const std::vector<double>& unknowns) {
+    make_positive(problem, best.unknowns, {}, frames, monitor_, [&](const std::vector<double>& unknowns) {
       keep_better(best, judged(unknowns));
       return best.report.valid();
     });
@@ -120,7 +125,8 @@ class Stage {
   // Conforming fits to the frames after each stage of their optimisation, until one is valid or they get no better:
   // where no integrable frames exist, the later, stiffer stages only cost.
   void try_integrable_frames(const MapProblem& problem, Candidate& best) {
-    const IntegrableOptions options;
+    IntegrableOptions options;
+    options.max_work = std::max(1L, max_work - monitor_.work());
     int idle = 0;
     try {
       IntegrableFrames frames(comm_, mesh_, field_, constraints_, space_, options);
@@ -130,7 +136,9 @@ class Stage {
                                                               report.stage.smoothness, report.stage.integrability),
                                                   report.newton_steps, report.linear_iterations, report.seconds});
                                    const double before = defects(best.report);
+                                   const long work = monitor_.work();
                                    keep_better(best, fitted(problem, inverse_frames(now.gather())));
+                                   now.set_work(now.work() + monitor_.work() - work);
                                    idle = defects(best.report) <= progress_factor * before ? 0 : idle + 1;
                                    return best.report.valid() || idle >= max_idle_stages;
                                  });
@@ -164,9 +172,7 @@ class Stage {
     const std::vector<double> zero(root() ? space_.num_unknowns() : 0, 0.0);
     const VecOwner y(problem.make_vector(zero, false));
     const solve::EnergyTerm* terms[] = {&energy};
-    const Clock::time_point start = Clock::now();
-    const solve::NewtonResult result = solve::solve_linear(comm_, terms, y.get(), solve::Preconditioner::cholesky);
-    monitor_.note({"fit", 0, result.linear_iterations, seconds_since(start)});
+    monitor_.solve_linear(comm_, terms, y.get(), solve::Preconditioner::cholesky, "fit");
     return problem.gather(y.get(), {});
   }
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "collective.hpp"
 #include "hexfield/base/petsc.hpp"
+#include "hexfield/base/stopwatch.hpp"
 #include "untangle.hpp"
 
 namespace hexfield {
@@ -43,6 +45,26 @@ std::vector<double> pack(int phase, const IntegerGoal& goal, const std::vector<d
   return row;
 }
 
+// A map that has the integers and as few tets turned over as the frames allow.
+std::vector<double> fitted(const MapProblem& problem, const IntegerGoal& goal, SolveMonitor& monitor,
+                           const std::function<bool(const std::vector<double>&)>& is_inside) {
+  solve::TetEnergy energy(solve::TetEnergy::Kind::frame_fit);
+  problem.add_elements(energy, problem.volume_weights(), problem.scatter_matrices(goal.frames), goal.integers);
+  std::vector<double> unknowns = goal.start;
+  if (!unknowns.empty()) std::copy(goal.integers.begin(), goal.integers.end(), unknowns.begin() + problem.num_reals());
+  const VecOwner y(problem.make_vector(unknowns, true));
+  const solve::EnergyTerm* terms[] = {&energy};
+  const Clock::time_point start = Clock::now();
+  const solve::NewtonResult result =
+      solve::solve_linear(problem.comm(), terms, y.get(), solve::Preconditioner::cholesky);
+  monitor.note({"fit to blocks", 0, result.linear_iterations, seconds_since(start)});
+  unknowns = problem.gather(y.get(), goal.integers);
+  if (is_inside(unknowns)) return unknowns;
+  unknowns = make_positive(problem, std::move(unknowns), goal.integers, goal.frames, monitor, is_inside);
+  if (is_inside(unknowns)) return unknowns;
+  return untangle(problem, unknowns, goal.integers, goal.frames, untangling_rounds, monitor);
+}
+
 bool inside(const MapProblem& problem, std::span<const solve::EnergyTerm* const> terms,
             const std::vector<double>& unknowns) {
   const VecOwner y(problem.make_vector(unknowns, true));
@@ -56,7 +78,8 @@ std::optional<IntegerGoal> unpack_goal(std::vector<double> row, const Conforming
   if (row.size() != 2 + space.num_integers + space.num_unknowns()) return std::nullopt;
   const auto integers = row.begin() + 2;
   const auto unknowns = integers + static_cast<std::ptrdiff_t>(space.num_integers);
-  return IntegerGoal{{integers, unknowns}, {unknowns, row.end()}, row[1], static_cast<int>(row[0]), std::move(memory)};
+  return IntegerGoal{{integers, unknowns},     {unknowns, row.end()}, row[1],
+                     static_cast<int>(row[0]), std::move(memory),     {}};
 }
 
 int num_integer_phases() { return static_cast<int>(penalties.size()); }
@@ -69,7 +92,14 @@ IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal
   options.preconditioner = solve::Preconditioner::cholesky;
   // The gradient of a start with thin tets is huge, so it measures nothing.
   options.gradient_tolerance = 0;
-  if (goal.first_phase < num_integer_phases()) {
+  const solve::TetEnergy fixed_energy = dirichlet_energy(problem, goal.edge, goal.integers);
+  const solve::EnergyTerm* fixed_terms[] = {&fixed_energy};
+  const auto is_inside = [&](const std::vector<double>& unknowns) { return inside(problem, fixed_terms, unknowns); };
+  bool has_frames = !goal.frames.empty();
+  broadcast(comm, has_frames);
+  if (has_frames) outcome.unknowns = fitted(problem, goal, monitor, is_inside);
+  const bool fits = has_frames && is_inside(outcome.unknowns);
+  if (goal.first_phase < num_integer_phases() && !fits) {
     const VecOwner y(problem.make_vector(goal.start, false));
     const solve::TetEnergy energy = dirichlet_energy(problem, goal.edge, {});
     options.max_iterations = 12;
@@ -89,20 +119,17 @@ IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal
     outcome.distance = distance_to(problem, y.get(), goal.integers);
     outcome.unknowns = problem.gather(y.get(), {});
     if (!outcome.unknowns.empty())
-      std::copy(goal.integers.begin(), goal.integers.end(),
-                outcome.unknowns.begin() + static_cast<std::ptrdiff_t>(problem.num_reals()));
+      std::copy(goal.integers.begin(), goal.integers.end(), outcome.unknowns.begin() + problem.num_reals());
   }
-  const solve::TetEnergy energy = dirichlet_energy(problem, goal.edge, goal.integers);
-  const solve::EnergyTerm* terms[] = {&energy};
-  if (!inside(problem, terms, outcome.unknowns))
+  if (!is_inside(outcome.unknowns))
     // The last jump inverted a few tets.
     outcome.unknowns = untangle(problem, outcome.unknowns, goal.integers, goal.edge, untangling_rounds, monitor);
-  if (!inside(problem, terms, outcome.unknowns)) return outcome;
+  if (!is_inside(outcome.unknowns)) return outcome;
   const VecOwner y(problem.make_vector(outcome.unknowns, true));
   options.max_iterations = 100;
   options.decrease_tolerance = 1e-10;
   monitor.minimise(
-      comm, terms, y.get(), options, "integer-grid map",
+      comm, fixed_terms, y.get(), options, "integer-grid map",
       [&] { return pack(num_integer_phases(), goal, problem.gather(y.get(), goal.integers)); },
       goal.first_phase == num_integer_phases() ? goal.memory : std::vector<double>());
   outcome.unknowns = problem.gather(y.get(), goal.integers);

@@ -12,6 +12,8 @@ struct IntegerGoal {
   double edge = 1;               ///< domain length of one parameter step
   int first_phase = 0;           ///< where to go on after a restart
   std::vector<double> memory;    ///< rank 0: that of Newton's method there
+  /// Rank 0, per tet, combed: the steps of one parameter unit that the integers suggest; or empty.
+  std::vector<Mat3> frames;
 };
 
 struct IntegerOutcome {
@@ -27,9 +29,10 @@ std::optional<IntegerGoal> unpack_goal(std::vector<double> row, const Conforming
 /// Number of penalty phases before the integers are fixed.
 int num_integer_phases();
 
-/// Drives the integer unknowns from the start to their goals under the symmetric Dirichlet energy with a
-/// growing quadratic penalty, never through an inverted tet, then fixes them and minimises the energy alone
-/// (spec-lmff section 9, homotopy). Collective.
+/// With frames: fits a map that has the integers to them and makes it positive; with none, or where that leaves a tet
+/// turned over, drives the integer unknowns from the start to their goals under the symmetric Dirichlet energy with a
+/// growing quadratic penalty, never through an inverted tet (spec-lmff section 9, homotopy), and fixes them. Then
+/// minimises the energy alone. Collective.
 IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal, SolveMonitor& monitor);
 
 }  // namespace hexfield

@@ -1,6 +1,7 @@
 #include "hexfield/map/integrable_frames.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "hexfield/base/agree.hpp"
@@ -77,6 +78,9 @@ std::vector<Mat3> IntegrableFrames::gather() const {
   return result;
 }
 
+long IntegrableFrames::work() const { return implementation_->newton.work(); }
+void IntegrableFrames::set_work(long work) { implementation_->newton.set_work(work); }
+
 void IntegrableFrames::set(const std::vector<Mat3>& on_root) {
   auto& self = *implementation_;
   std::vector<double> all;
@@ -95,11 +99,13 @@ std::vector<IntegrableStageReport> optimise_integrable_frames(
   std::size_t first = 0;
   if (control.restore_iterate) {
     if (const auto saved = control.restore_iterate(iterate_name)) {
-      double stage = saved->empty() ? 0.0 : saved->front();
-      MPI_Bcast(&stage, 1, MPI_DOUBLE, 0, comm);
-      first = static_cast<std::size_t>(stage);
+      std::array<double, 2> numbers{};  // stage, work
+      if (saved->size() > numbers.size()) std::copy_n(saved->begin(), numbers.size(), numbers.begin());
+      MPI_Bcast(numbers.data(), 2, MPI_DOUBLE, 0, comm);
+      first = static_cast<std::size_t>(numbers[0]);
+      frames.set_work(static_cast<long>(numbers[1]));
       std::vector<Mat3> on_root;
-      for (std::size_t i = 1; i + 8 < saved->size(); i += 9)
+      for (std::size_t i = numbers.size(); i + 8 < saved->size(); i += 9)
         on_root.emplace_back(Eigen::Map<const RowMajor3>(saved->data() + i));
       frames.set(on_root);
     }
@@ -112,9 +118,12 @@ std::vector<IntegrableStageReport> optimise_integrable_frames(
     reports.push_back(
         frames.run(options.schedule[s], last ? options.last_decrease_tolerance : options.decrease_tolerance, control));
     const bool stopped = reports.back().stopped;
+    // Judged first: it may add to the work, and whoever goes on does not judge this stage again.
+    bool end = !stopped && ((done && done(s, frames, reports.back())) || reports.back().exhausted);
+    end = end || (options.max_work > 0 && frames.work() >= options.max_work);
     if (control.offer_iterate)
       control.offer_iterate(iterate_name, [&] {
-        std::vector<double> values{static_cast<double>(stopped ? s : s + 1)};
+        std::vector<double> values{static_cast<double>(stopped ? s : s + 1), static_cast<double>(frames.work())};
         for (const Mat3& j : frames.gather()) {
           const RowMajor3 r = j;
           values.insert(values.end(), r.data(), r.data() + 9);
@@ -123,7 +132,7 @@ std::vector<IntegrableStageReport> optimise_integrable_frames(
         return values;
       });
     if (stopped) throw Error(ExitCode::stopped, "The optimisation of integrable frames was asked to stop.");
-    if (done && done(s, frames, reports.back())) break;
+    if (end) break;
   }
   return reports;
 }

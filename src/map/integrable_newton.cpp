@@ -34,6 +34,9 @@ class Values {
   PetscInt size_ = 0;
 };
 
+/// Cost of linearising, of the inverses and of the line search, in iterations of the linear solver.
+constexpr long work_of_step = 10;
+
 // Runs a callback of PETSc; its exceptions must not pass through C code.
 template <class Work>
 PetscErrorCode guarded(Work work) {
@@ -67,6 +70,7 @@ Newton::Newton(MPI_Comm comm, Problem& problem, std::vector<std::unique_ptr<Coar
   check_petsc(PCSetType(pc, PCSHELL), "PCSetType");
   check_petsc(PCShellSetContext(pc, this), "PCShellSetContext");
   check_petsc(PCShellSetApply(pc, &Newton::precondition), "PCShellSetApply");
+  interrupt_.emplace(ksp_.get(), [this] { return stop_requested(); });
 }
 
 PetscErrorCode Newton::multiply(Mat shell, Vec x, Vec y) {
@@ -96,6 +100,10 @@ PetscErrorCode Newton::precondition(PC shell, Vec r, Vec z) {
   });
 }
 
+bool Newton::stop_requested() const {
+  return control_ != nullptr && control_->stop_requested && control_->stop_requested();
+}
+
 void Newton::update_blocks() {
   inverses_.resize(problem_.mesh().num_owned());
   agree(comm_, [&] {
@@ -117,11 +125,14 @@ double Newton::find_direction(IntegrableStageReport& report, double tolerance) {
     Values rhs(rhs_.get());
     std::transform(gradient_.begin(), gradient_.end(), rhs.get().begin(), [](double g) { return -g; });
   }
+  interrupt_->reset();
   check_petsc(VecSet(direction_.get(), 0.0), "VecSet");
   check_petsc(KSPSolve(ksp_.get(), rhs_.get(), direction_.get()), "KSPSolve");
   PetscInt iterations = 0;
   check_petsc(KSPGetIterationNumber(ksp_.get(), &iterations), "KSPGetIterationNumber");
   report.linear_iterations += static_cast<int>(iterations);
+  work_ += static_cast<long>(iterations);
+  if (interrupt_->happened()) return 0;
   if (iterations_when_fresh_ == 0) iterations_when_fresh_ = static_cast<int>(iterations);
   // Coarse inverses of an old state serve until they cost more iterations than they save.
   stale_ = iterations > iterations_when_fresh_ + iterations_when_fresh_ / 2 + 3;
@@ -184,24 +195,30 @@ IntegrableStageReport Newton::run(const IntegrableStage& stage, double tolerance
   stale_ = true;
   gradient_.resize(frames.size());
   Energies energies = problem_.energies(frames);
-  while (report.newton_steps < options_.max_newton_steps) {
+  control_ = &control;
+  while (report.newton_steps < options_.max_newton_steps && !report.stopped) {
+    report.exhausted = options_.max_work > 0 && work_ >= options_.max_work;
+    if (report.exhausted) break;
+    work_ += work_of_step;
     problem_.linearise(frames, gradient_);
     update_blocks();
     if (stale_) update_coarse_spaces();
     double slope = find_direction(report, options_.linear_tolerance);
+    report.stopped = interrupt_->happened();
+    if (report.stopped) break;
     const double before = energies.total(stage);
     auto small_step = [&] { return !(-0.5 * slope > tolerance * before); };
     // A nearly inverted tet can satisfy the loose test alone; look again before ending the stage.
     if (small_step()) slope = find_direction(report, 1e-3 * options_.linear_tolerance);
+    report.stopped = interrupt_->happened();
+    if (report.stopped) break;
     const bool small = small_step();
     const bool moved = search(stage, slope, frames, energies);
     if (moved) ++report.newton_steps;
     if (small || !moved) break;
-    if (control.stop_requested && control.stop_requested()) {
-      report.stopped = true;
-      break;
-    }
+    report.stopped = stop_requested();
   }
+  control_ = nullptr;
   report.distortion = energies.distortion;
   report.smoothness = energies.smoothness;
   report.integrability = energies.integrability;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "hexfield/solve/interrupt.hpp"
 #include "hexfield/solve/petsc_handle.hpp"
 #include "integrable_coarse.hpp"
 
@@ -20,7 +21,12 @@ class Newton {
   IntegrableStageReport run(const IntegrableStage& stage, double tolerance, const Control& control,
                             std::vector<double>& frames);
 
+  /// Iterations of the linear solver so far, with those that the rest of the steps is worth.
+  long work() const { return work_; }
+  void set_work(long work) { work_ = work; }
+
  private:
+  bool stop_requested() const;
   static PetscErrorCode multiply(Mat shell, Vec x, Vec y);
   static PetscErrorCode precondition(PC shell, Vec r, Vec z);
   void update_blocks();
@@ -38,6 +44,8 @@ class Newton {
   const IntegrableOptions& options_;
   solve::MatHandle matrix_;
   solve::KspHandle ksp_;
+  const Control* control_ = nullptr;  // of the run under way
+  std::optional<solve::Interrupt> interrupt_;
   solve::VecHandle rhs_, direction_;
   std::vector<solve::Mat9> inverses_;
   std::vector<double> gradient_;
@@ -45,6 +53,7 @@ class Newton {
   std::vector<double> clipped_;
   int iterations_when_fresh_ = 0;  // of the first solve after the coarse spaces were renewed
   bool stale_ = true;
+  long work_ = 0;
 };
 
 }  // namespace hexfield::integrable

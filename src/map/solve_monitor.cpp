@@ -10,6 +10,8 @@
 namespace hexfield {
 namespace {
 
+/// Assembly, factorisation and line search, in iterations of the linear solver.
+constexpr long work_of_step = 20;
 constexpr std::size_t head = 4;  // numbers before the y of the factorisation
 
 // Three numbers, whether there is a factorisation, and its y; the number of all that last, for take_memory().
@@ -66,26 +68,44 @@ solve::NewtonResult SolveMonitor::minimise(MPI_Comm comm, std::span<const solve:
                                            solve::NewtonOptions options, const std::string& what,
                                            const std::function<std::vector<double>()>& gather,
                                            const std::vector<double>& memory) {
-  bool stop = false;
+  bool stop = false, in_step = false;
   solve::NewtonMemory newton;
   unpack(comm, memory, y, newton);
   options.memory = &newton;
   const int behind = newton.iterations;
+  const auto offer = [&] {
+    if (!control_.offer_iterate || !gather) return;
+    control_.offer_iterate(name_, [&] {
+      std::vector<double> iterate = gather();
+      append(iterate, newton);
+      return iterate;
+    });
+  };
   options.monitor = [&](int, double, double) {
     if (control_.progress) control_.progress(what, -1);
-    if (control_.offer_iterate && gather)
-      control_.offer_iterate(name_, [&] {
-        std::vector<double> iterate = gather();
-        append(iterate, newton);
-        return iterate;
-      });
-    stop = control_.stop_requested && control_.stop_requested();
+    offer();
+    stop = stop_requested();
     return !stop;
   };
+  options.interrupted = [&] { return stop = in_step = stop_requested(); };
   const Clock::time_point start = Clock::now();
   const solve::NewtonResult result = solve::minimise(comm, terms, y, options);
   note({what, result.iterations - behind, result.linear_iterations, seconds_since(start)});
-  if (stop) throw Error(ExitCode::stopped, "The run was stopped: " + what + ".");
+  work_ += result.linear_iterations + work_of_step * (result.iterations - behind + 1);
+  if (!stop) return result;
+  if (in_step) offer();  // the last one came before the run was to end, and may not have been taken
+  throw Error(ExitCode::stopped, "The run was stopped: " + what + ".");
+}
+
+solve::NewtonResult SolveMonitor::solve_linear(MPI_Comm comm, std::span<const solve::EnergyTerm* const> terms, Vec y,
+                                               solve::Preconditioner preconditioner, const std::string& what) {
+  if (control_.progress) control_.progress(what, -1);
+  const Clock::time_point start = Clock::now();
+  const solve::NewtonResult result =
+      solve::solve_linear(comm, terms, y, preconditioner, 1, [&] { return stop_requested(); });
+  note({what, 0, result.linear_iterations, seconds_since(start)});
+  work_ += result.linear_iterations + work_of_step * result.iterations;
+  if (result.end == solve::NewtonEnd::stopped) throw Error(ExitCode::stopped, "The run was stopped: " + what + ".");
   return result;
 }
 

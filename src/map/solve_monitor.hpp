@@ -28,6 +28,17 @@ class SolveMonitor {
                                const std::function<std::vector<double>()>& gather,
                                const std::vector<double>& memory = {});
 
+  /// solve::solve_linear() with this monitor, in the record as `what`. Throws Error(stopped).
+  solve::NewtonResult solve_linear(MPI_Comm comm, std::span<const solve::EnergyTerm* const> terms, Vec y,
+                                   solve::Preconditioner preconditioner, const std::string& what);
+
+  /// Work of all minimisations and linear solves so far: iterations of the linear solver, with what the assembly and
+  /// factorisation of each Newton step is worth. The time of one is about proportional to the size of the mesh.
+  long work() const { return work_; }
+  /// When the work is beyond `max_work`, exhausted() tells loops over minimisations to give up.
+  void limit_work(long max_work) { max_work_ = max_work; }
+  bool exhausted() const { return max_work_ > 0 && work_ > max_work_; }
+
   /// Adds to the record; solves of one name in a row become one entry.
   void note(const SolveRecord& solve);
   /// What a check of the map after the last solve found.
@@ -38,9 +49,13 @@ class SolveMonitor {
   int linear_iterations() const;
 
  private:
+  bool stop_requested() const { return control_.stop_requested && control_.stop_requested(); }
+
   const Control& control_;
   std::string name_;
   std::vector<SolveRecord> solves_;
+  long work_ = 0;
+  long max_work_ = 0;
 };
 
 /// Cuts the memory of Newton's method off an iterate that SolveMonitor offered; empty when there is none.

@@ -62,60 +62,96 @@ class SeenTets {
 EdgeRing edge_ring(const TetMesh& mesh, TetId seed, VertexId a, VertexId b) {
   // Counter-clockwise one leaves through the face opposite to c, clockwise through the one opposite to d.
   auto leave = [&](TetId t, bool ccw) { return HalfFaceId(t, wing_vertices(mesh, t, a, b)[ccw ? 0 : 1]); };
-  TetId start = seed;
-  for (;;) {
-    const HalfFaceId back = mesh.opposite_half_face(leave(start, false));
-    if (!back.valid() || back.tet() == seed) {
-      if (back.valid()) start = seed;
-      break;
-    }
-    start = back.tet();
-  }
   EdgeRing ring;
-  const HalfFaceId first = leave(start, false);
-  ring.closed = !mesh.is_boundary(first);
-  if (!ring.closed) ring.first_boundary = first;
-  for (TetId t = start;;) {
-    const HalfFaceId out = leave(t, true);
+  ring.tets.reserve(8);
+  ring.crossings.reserve(8);
+  for (TetId t = seed;;) {
     ring.tets.push_back(t);
-    ring.crossings.push_back(out);
-    const HalfFaceId in = mesh.opposite_half_face(out);
-    if (!in.valid() || in.tet() == start) return ring;
+    ring.crossings.push_back(leave(t, true));
+    const HalfFaceId in = mesh.opposite_half_face(ring.crossings.back());
+    if (!in.valid()) break;
     t = in.tet();
+    ring.closed = t == seed;
+    if (ring.closed) return ring;
   }
+  const std::size_t ahead = ring.tets.size();
+  for (TetId t = seed;;) {
+    ring.first_boundary = leave(t, false);
+    const HalfFaceId back = mesh.opposite_half_face(ring.first_boundary);
+    if (!back.valid()) break;
+    t = back.tet();
+    ring.tets.push_back(t);
+    ring.crossings.push_back(back);
+  }
+  // What was found clockwise comes first, the last of it before all.
+  const auto clockwise_first = [&](auto& list) {
+    std::rotate(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(ahead), list.end());
+    std::reverse(list.begin(), list.end() - static_cast<std::ptrdiff_t>(ahead));
+  };
+  clockwise_first(ring.tets);
+  clockwise_first(ring.crossings);
+  return ring;
 }
 
-std::vector<TetId> vertex_star(const TetMesh& mesh, VertexId v) {
-  std::vector<TetId> star;
+namespace {
+
+// Visits the alive tets at v that faces at v connect with mesh.vertex_tet[v], each once, in an order of walking, until
+// `visit` returns false.
+template <class Visit>
+void walk_star(const TetMesh& mesh, VertexId v, const Visit& visit) {
   const TetId seed = mesh.vertex_tet[v.index()];
-  if (!seed.valid()) return star;
+  if (!seed.valid()) return;
   SeenTets seen;
+  std::vector<TetId> star;
   star.reserve(48);
   star.push_back(seed);
   seen.insert(seed);
   for (std::size_t i = 0; i < star.size(); ++i) {
     const TetId t = star[i];
+    if (!visit(t)) return;
     for (int f = 0; f < 4; ++f) {
       if (mesh.vertices(t)[static_cast<std::size_t>(f)] == v) continue;
       const HalfFaceId o = mesh.opposite_half_face(HalfFaceId(t, f));
       if (o.valid() && seen.insert(o.tet())) star.push_back(o.tet());
     }
   }
+}
+
+}  // namespace
+
+std::vector<TetId> vertex_star(const TetMesh& mesh, VertexId v) {
+  std::vector<TetId> star;
+  star.reserve(48);
+  walk_star(mesh, v, [&](TetId t) {
+    star.push_back(t);
+    return true;
+  });
   std::sort(star.begin(), star.end());
   return star;
 }
 
 TetId find_tet_with_edge(const TetMesh& mesh, VertexId a, VertexId b) {
-  for (TetId t : vertex_star(mesh, a))
-    if (mesh.has_vertex(t, b)) return t;
-  return TetId();
+  TetId seed;
+  walk_star(mesh, a, [&](TetId t) {
+    if (mesh.has_vertex(t, b)) seed = t;
+    return !seed.valid();
+  });
+  if (!seed.valid()) return seed;
+  const EdgeRing ring = edge_ring(mesh, seed, a, b);
+  return *std::min_element(ring.tets.begin(), ring.tets.end());
 }
 
 HalfFaceId find_half_face(const TetMesh& mesh, const FaceKey& face) {
-  for (TetId t : vertex_star(mesh, face[0]))
+  HalfFaceId found;
+  walk_star(mesh, face[0], [&](TetId t) {
+    if (!mesh.has_vertex(t, face[1]) || !mesh.has_vertex(t, face[2])) return true;
     for (int i = 0; i < 4; ++i)
-      if (mesh.key(HalfFaceId(t, i)) == face) return HalfFaceId(t, i);
-  return HalfFaceId();
+      if (mesh.key(HalfFaceId(t, i)) == face) found = HalfFaceId(t, i);
+    const HalfFaceId beyond = mesh.opposite_half_face(found);
+    if (beyond.valid() && beyond < found) found = beyond;
+    return false;
+  });
+  return found;
 }
 
 }  // namespace hexfield

@@ -46,6 +46,18 @@ Json map_json(const MapReport& report) {
           {"max_residual", report.max_residual}};
 }
 
+Json solves_json(const std::vector<SolveRecord>& solves) {
+  Json lines = Json::array();
+  for (const SolveRecord& s : solves)
+    lines.push_back({{"what", s.what},
+                     {"newton_steps", s.newton_steps},
+                     {"linear_iterations", s.linear_iterations},
+                     {"seconds", s.seconds},
+                     {"inverted", s.inverted},
+                     {"wrong_index", s.wrong_edges}});
+  return lines;
+}
+
 Json quantization_json(const QuantizeResult& result) {
   const bool integers = result.kind != "rounding";
   const auto only = [&](auto value) { return integers ? Json(value) : Json(); };
@@ -78,7 +90,9 @@ void judge_seamless(RunState& state) { judge_seamless_within(state, MapReport::r
 void judge_seamless_within(RunState& state, double residual) {
   const MapReport& report = state.seamless.report;
   state.report["seamless"] = map_json(report);
+  state.report["seamless"]["newton_steps"] = state.seamless.newton_steps;
   state.report["seamless"]["linear_iterations"] = state.seamless.linear_iterations;
+  state.report["seamless"]["solves"] = solves_json(state.seamless.solves);
   if (report.inverted.empty() && report.wrong_edges.empty() && report.max_residual <= residual) return;
   const std::vector<Vec3> places = note_map_culprits(state, report);
   throw Error(ExitCode::no_seamless_map,
@@ -97,13 +111,7 @@ void judge_igm(RunState& state) {
   state.report["igm"] = map_json(igm.report);
   state.report["igm"]["newton_steps"] = igm.newton_steps;
   state.report["igm"]["linear_iterations"] = igm.linear_iterations;
-  for (const SolveRecord& s : igm.solves)
-    state.report["igm"]["solves"].push_back({{"what", s.what},
-                                             {"newton_steps", s.newton_steps},
-                                             {"linear_iterations", s.linear_iterations},
-                                             {"seconds", s.seconds},
-                                             {"inverted", s.inverted},
-                                             {"wrong_index", s.wrong_edges}});
+  state.report["igm"]["solves"] = solves_json(igm.solves);
   const bool valid = igm.report.valid() && igm.quantization_valid;
   state.report["quantization"] = quantization_json(state.quantization);
   state.report["quantization"]["valid"] = igm.quantization_valid;

@@ -66,8 +66,10 @@ void judge_repair(RunState& state) {
   describe_field(state);
   const RepairReport& repair = state.repair;
   state.report["meshability"] = {{"before", counts_json(repair.before)}, {"after", counts_json(repair.after)}};
-  state.report["repair"] = {
-      {"iterations", repair.iterations}, {"operations", repair.operations}, {"seconds", repair.seconds}};
+  state.report["repair"] = {{"iterations", repair.iterations},
+                            {"work", repair.work},
+                            {"operations", repair.operations},
+                            {"seconds", repair.seconds}};
   const FieldResult& f = state.field;
   const std::vector<Defect> defects = unrefuted_defects(FieldView(f.mesh, f.features, f.field, f.codes));
   if (defects.empty()) return;

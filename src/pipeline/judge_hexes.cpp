@@ -37,12 +37,22 @@ void note_bad_hexes(RunState& state) {
   }
 }
 
-/// Fills the section of the report and returns all violations.
-std::vector<Violation> describe(RunState& state) {
+struct Judgement {
+  std::vector<Violation> violations;
+  /// Conforming, positive and of the right topology, whatever its shape: all that a coarse layout of blocks can be.
+  bool sound = false;
+};
+
+/// Fills the section of the report.
+Judgement describe(RunState& state) {
   const HexMesh& hexes = state.hexes;
   const HexQuality measured = quality(hexes);
-  std::vector<Violation> violations = check(hexes);
+  Judgement judgement;
+  std::vector<Violation>& violations = judgement.violations;
+  violations = check(hexes);
+  const bool conforming = violations.empty();
   const HexAgainstTets against = check_against(hexes, state.field.mesh, state.field.features);
+  judgement.sound = conforming && against.hexes == against.tets;
   violations.insert(violations.end(), against.violations.begin(), against.violations.end());
   state.report["hex"] = {{"count", hexes.hexes.size()},
                          {"scaled_jacobian", quality_json(measured)},
@@ -52,12 +62,13 @@ std::vector<Violation> describe(RunState& state) {
                            {"surfaces", coverage_json(against.surfaces)}}},
                          {"volume_ratio", against.volume_ratio},
                          {"topology", topology_json(against.hexes)},
+                         {"sound", judgement.sound},
                          {"defects", violations.size()}};
   state.sentence = fmt::format(
       "A complete, valid hex mesh: {} hexes, smallest scaled Jacobian {:.3f}, {} feature points, {} curves and {} "
       "surfaces kept.",
       hexes.hexes.size(), measured.min, against.points.wanted, against.curves.wanted, against.surfaces.wanted);
-  return violations;
+  return judgement;
 }
 
 }  // namespace
@@ -65,7 +76,8 @@ std::vector<Violation> describe(RunState& state) {
 void describe_hexes(RunState& state) { describe(state); }
 
 void judge_hexes(RunState& state) {
-  const std::vector<Violation> violations = describe(state);
+  const Judgement judgement = describe(state);
+  const std::vector<Violation>& violations = judgement.violations;
   if (violations.empty()) return;
   note_bad_hexes(state);
   std::vector<Vec3> places;
@@ -75,7 +87,10 @@ void judge_hexes(RunState& state) {
   state.culprits.places = places;
   throw Error(
       ExitCode::bad_hex_mesh,
-      fmt::format("The hex mesh is not valid: {} ({} defects in all).", violations.front().sentence, violations.size()),
+      fmt::format("{}: {} ({} defects in all).",
+                  judgement.sound ? "The hex mesh is complete, conforming and positive, but too coarse for its shape"
+                                  : "The hex mesh is not valid",
+                  violations.front().sentence, violations.size()),
       violations.front().ids, places);
 }
 

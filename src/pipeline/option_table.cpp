@@ -74,6 +74,7 @@ OptionTable::OptionTable(RunOptions& o) {
       {"repair.inner_iterations", "repair", &o.repair.inner_iterations, 1},
       {"repair.alignment_weight", "repair", &o.repair.alignment_weight, 0},
       {"repair.post_remesh_rounds", "repair", &o.repair.post_remesh_rounds, 0},
+      {"repair.work_per_tet", "repair", &o.repair.work_per_tet, 0},
       {"seamless.max_misalignment_degrees", "seamless", &o.seamless.max_misalignment_degrees, 0, 180},
       {"quantizer", "quantize", &o.quantizer, 0, 0, {"pump", "ilp", "rounding"}},
       {"min_layers", "quantize", &o.min_layers, 1, 1000},

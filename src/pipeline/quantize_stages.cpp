@@ -119,6 +119,7 @@ void quantize(RunState& state, const ConformingSpace& space, double hexes) {
     result.notes.push_back(
         fmt::format("{} found no integers: every arc is at least 1 instead.", state.options.quantizer));
   result.unknowns = quantizer.integer_unknowns(space, result.integers.lengths);
+  result.stretches = quantizer.stretches(result.integers.lengths);
   result.wanted.clear();
   for (std::size_t a = 0; a < complex.arcs.size(); ++a)
     result.wanted.push_back(result.integers.scale * complex.length(a));
@@ -156,8 +157,11 @@ class IgmStage {
   static constexpr int max_targets = 3;
   static constexpr double more_hexes = 1.4;
   static constexpr int max_refinements = 3;
+  /// Of all solves together, after which nothing else is tried: a valid map takes a tenth of them.
+  static constexpr int max_newton_steps = 1000;
 
   bool root() const { return state_.team.is_root(); }
+  bool spent() const { return state_.igm.newton_steps > max_newton_steps; }
   void note(std::string sentence) {
     if (!root() || sentence.empty()) return;
     state_.log.info(sentence);
@@ -177,7 +181,7 @@ class IgmStage {
 
   bool reach() {
     double hexes = options_.target_hexes;
-    for (int target = 0; target < max_targets; ++target, hexes *= more_hexes) {
+    for (int target = 0; target < max_targets && !spent(); ++target, hexes *= more_hexes) {
       if (target > 0) state_.team.on_root([&] { other_integers(hexes); });
       if (reach_with_refinement()) return true;
     }
@@ -192,11 +196,11 @@ class IgmStage {
       require(q.unknowns.size() == space.num_integers, "The quantization belongs to another map.");
       // The start has the volume of the goal: where few hexes are wanted the integers hold many more.
       const auto hexes = static_cast<double>(q.integers.hexes);
-      return IntegerChoice{std::cbrt(hexes / parametric_volume(state_.seamless.map)), q.unknowns, hexes};
+      return IntegerChoice{std::cbrt(hexes / parametric_volume(state_.seamless.map)), q.unknowns, hexes, q.stretches};
     };
     for (int round = 0;; ++round) {
       if (solve(options)) return true;
-      if (round == max_refinements || state_.igm.report.inverted.empty()) break;
+      if (round == max_refinements || spent() || state_.igm.report.inverted.empty()) break;
       state_.team.on_root([&] { refine(); });
     }
     if (root()) note(spacing_near(state_.quantization, state_.igm.where));
@@ -215,7 +219,10 @@ class IgmStage {
       for (Vec3& p : goal.uvw[t]) p = octahedral::apply(before.cut.gauges[t], p);
     goal.rotations = state_.seamless.map.rotations;
     const std::size_t blocking = state_.igm.report.inverted.size();
-    const std::vector<CornerMap*> maps = {&state_.seamless.map, &goal};
+    // Parts of a tet are to grow as it was.
+    CornerMap growth{{}, goal.rotations};
+    for (const Vec3& s : q.stretches) growth.uvw.push_back({s, s, s, s});
+    const std::vector<CornerMap*> maps = {&state_.seamless.map, &goal, &growth};
     // Bridges first, everywhere: near one that blocks now there is one that blocks next.
     int splits = state_.refined ? 0 : split_bridges(f, maps);
     if (splits == 0) splits = refine_at_blocking_tets(f, maps, state_.igm.report.inverted);
@@ -226,6 +233,8 @@ class IgmStage {
       require(std::abs(x - std::nearbyint(x)) < 1e-3, "A refined map has other integers.");
       x = std::nearbyint(x);
     }
+    q.stretches.clear();
+    for (const auto& corners : growth.uvw) q.stretches.push_back(corners[0]);
     state_.refined = true;
     state_.quantizer.reset();
     note(fmt::format("{} tets block the way to the integers for {} hexes: {} edges are split.", blocking,

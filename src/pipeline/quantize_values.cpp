@@ -89,6 +89,7 @@ NamedArrays pack(const QuantizeResult& result) {
   arrays.view<std::int64_t>("quantize_lengths", q.lengths, 1);
   arrays.view<double>("quantize_wanted", result.wanted, 1);
   arrays.view<double>("quantize_unknowns", result.unknowns, 1);
+  arrays.view("quantize_stretches", numbers<double>(result.stretches), 3);
   arrays.view("quantize_points", numbers<double>(result.picture.points), 3);
   arrays.view("quantize_triangles", numbers<std::int32_t>(result.picture.triangles), 3);
   arrays.view("quantize_walls", numbers<std::int32_t>(result.picture.walls), 4);
@@ -123,6 +124,7 @@ QuantizeResult unpack_quantize(const NamedArrays& arrays) {
   take<std::int64_t, std::int64_t>(arrays, "quantize_lengths", q.lengths);
   take<double, double>(arrays, "quantize_wanted", result.wanted);
   take<double, double>(arrays, "quantize_unknowns", result.unknowns);
+  take<Vec3, double>(arrays, "quantize_stretches", result.stretches);
   take<Vec3, double>(arrays, "quantize_points", result.picture.points);
   take<std::array<std::int32_t, 3>, std::int32_t>(arrays, "quantize_triangles", result.picture.triangles);
   take<std::array<std::int32_t, 4>, std::int32_t>(arrays, "quantize_walls", result.picture.walls);

@@ -28,6 +28,7 @@ struct QuantizeResult {
   Quantization integers;
   std::vector<double> wanted;    ///< per arc: the scaled length in the map
   std::vector<double> unknowns;  ///< integer unknowns of the conforming space of the exact map
+  std::vector<Vec3> stretches;   ///< per tet, of MapQuantizer
   double largest_move = 0;       ///< of an edge vector when the map was made exact, parameter units
   std::int64_t nodes = 0, arcs = 0, patches = 0, blocks = 0, euler = 0;
   std::map<std::string, double> seconds;  ///< of the clock: exact, complex, integers

@@ -58,6 +58,7 @@ std::string text_of(const RepairReport& report) {
   lines.add("operation/", report.operations);
   lines.add("seconds/", report.seconds);
   lines.add("iterations", report.iterations);
+  lines.add("work", static_cast<double>(report.work));
   return lines.text();
 }
 
@@ -72,6 +73,7 @@ RepairReport report_from(const std::string& text) {
   take(lines, "operation/", report.operations);
   take(lines, "seconds/", report.seconds);
   report.iterations = static_cast<int>(lines["iterations"]);
+  report.work = static_cast<long>(lines["work"]);
   return report;
 }
 
@@ -109,6 +111,14 @@ NamedArrays pack(const RepairIterate& iterate) {
       std::vector<double>{iterate.compound_shrink, iterate.zipper_shrink, static_cast<double>(iterate.stale_rounds),
                           static_cast<double>(iterate.fewest_defects)},
       1);
+  std::vector<std::int64_t> keys;
+  std::vector<std::int32_t> verdicts;
+  for (const auto& [key, verdict] : iterate.verdicts.all()) {
+    keys.push_back(static_cast<std::int64_t>(key));
+    verdicts.push_back(static_cast<std::int32_t>(verdict));
+  }
+  arrays.own("verdict_keys", std::move(keys), 1);
+  arrays.own("verdicts", std::move(verdicts), 1);
   arrays.own_text("repair_report", text_of(iterate.report));
   return arrays;
 }
@@ -131,6 +141,11 @@ RepairIterate unpack_repair_iterate(const NamedArrays& arrays) {
   iterate.zipper_shrink = weights[1];
   iterate.stale_rounds = static_cast<int>(weights[2]);
   iterate.fewest_defects = static_cast<int>(weights[3]);
+  const auto keys = arrays.get<std::int64_t>("verdict_keys", 1);
+  const auto verdicts = arrays.get<std::int32_t>("verdicts", 1);
+  require_same(keys.size() == verdicts.size(), "it has not one verdict per key");
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    iterate.verdicts.note(static_cast<VerdictMemory::Key>(keys[i]), static_cast<VertexVerdict>(verdicts[i]));
   iterate.report = report_from(arrays.text("repair_report"));
   return iterate;
 }

@@ -62,8 +62,8 @@ Json stage_json(const StageCost& cost) {
           {"peak_rss_mb_over_ranks", spread_json(cost.peak_rss_mb)}};
 }
 
-Json try_json(int attempt, ExitCode verdict, const std::string& sentence) {
-  return {{"settings", name_of_variation(attempt)}, {"verdict", static_cast<int>(verdict)}, {"text", sentence}};
+Json try_json(const std::string& setting, ExitCode verdict, const std::string& sentence) {
+  return {{"settings", setting}, {"verdict", static_cast<int>(verdict)}, {"text", sentence}};
 }
 
 void close_report(Json& report, const Json& tries, const Outcome& outcome, const std::string& stage,

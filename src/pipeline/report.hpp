@@ -20,7 +20,7 @@ nlohmann::ordered_json options_json(const RunOptions& options);
 /// The lines of one computed stage.
 nlohmann::ordered_json stage_json(const StageCost& cost);
 /// One line of `tries`: a setting of the repair and what came of it.
-nlohmann::ordered_json try_json(int attempt, ExitCode verdict, const std::string& sentence);
+nlohmann::ordered_json try_json(const std::string& setting, ExitCode verdict, const std::string& sentence);
 /// Adds tries and verdict.
 void close_report(nlohmann::ordered_json& report, const nlohmann::ordered_json& tries, const Outcome& outcome,
                   const std::string& stage, const std::vector<Vec3>& where);

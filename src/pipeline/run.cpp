@@ -11,6 +11,7 @@
 #include "hexfield/base/hash.hpp"
 #include "hexfield/base/ledger.hpp"
 #include "hexfield/base/parallel.hpp"
+#include "hexfield/base/watchdog.hpp"
 #include "hexfield/io/checkpoint.hpp"
 #include "hexfield/io/whole_file.hpp"
 #include "hexfield/pipeline/option_table.hpp"
@@ -18,6 +19,7 @@
 #include "outputs.hpp"
 #include "report.hpp"
 #include "stages.hpp"
+#include "tries.hpp"
 
 namespace hexfield {
 namespace {
@@ -54,7 +56,7 @@ class Runner {
         options_(options),
         stages_(is_map_file(options.input) ? map_stages() : all_stages()) {}
 
-  Outcome go();
+  Outcome go(const std::function<void(const std::string&)>& unheard);
 
  private:
   void prepare();
@@ -62,7 +64,9 @@ class Runner {
   void open_output();
   void run_stage(std::size_t index);
   void run_stages();
-  bool try_again(const Error& error);
+  bool may_try_again(const Error& error) const;
+  std::size_t try_again(const Error& error);
+  TrySetting setting() const { return try_setting(options_.repair, state_.attempt, state_.input_tets); }
   bool restore(std::size_t index);
   void compute(std::size_t index);
   void end_stage(const Stage& stage, const std::string& note);
@@ -214,6 +218,7 @@ void Runner::end_stage(const Stage& stage, const std::string& note) {
   if (!team_.is_root()) return;
   Json lines = stage_json(cost);
   if (stage.iterations) lines["iterations"] = stage.iterations(state_);
+  if (stage.name == "field") lines["refined_input"] = setting().refined_input;
   if (stage.name == "repair") {
     lines["try"] = state_.attempt + 1;
     lines["tries_before"] = state_.tries;
@@ -261,23 +266,31 @@ void Runner::run_stage(std::size_t index) {
   judge(stage);
 }
 
-// Goes back to the smooth field, for a repair with another setting, where this one ends in a field that is not
-// locally meshable or has no seamless map.
-bool Runner::try_again(const Error& error) {
+bool Runner::may_try_again(const Error& error) const {
   const bool worth_it = error.code() == ExitCode::not_meshable || error.code() == ExitCode::no_seamless_map;
-  if (!worth_it || is_map_file(options_.input) || state_.attempt + 1 >= options_.tries) return false;
-  const std::size_t repair = index_of("repair");
+  return worth_it && !is_map_file(options_.input) && state_.attempt + 1 < options_.tries;
+}
+
+// Goes back to the smooth field, for a repair with another setting, or to the input, for another field, where this one
+// ends in a field that is not locally meshable or has no seamless map. Returns the stage to go on with.
+std::size_t Runner::try_again(const Error& error) {
+  const std::size_t field = index_of("field"), repair = index_of("repair");
   team_.on_root([&] {
-    log_.warning(
-        fmt::format("Try {} ({}) failed: {}", state_.attempt + 1, name_of_variation(state_.attempt), error.sentence()));
-    state_.tries.push_back(try_json(state_.attempt, error.code(), error.sentence()));
-    stages_[repair - 1].unpack(state_, checkpoint_->load(stages_[repair - 1].name));
+    log_.warning(fmt::format("Try {} ({}) failed: {}", state_.attempt + 1, setting().name, error.sentence()));
+    state_.tries.push_back(try_json(setting().name, error.code(), error.sentence()));
     state_.culprits = {};
     state_.seamless = {};
   });
   ++state_.attempt;
+  std::size_t next = repair;
+  team_.on_root([&] {
+    const Json lines = Json::parse(checkpoint_->find(stages_[field].name)->report);
+    if (lines.value("refined_input", false) != setting().refined_input) next = field;
+    stages_[next - 1].unpack(state_, checkpoint_->load(stages_[next - 1].name));
+  });
+  MPI_Bcast(&next, 1, MPI_UNSIGNED_LONG, 0, team_.comm());
   restoring_ = false;
-  return true;
+  return next;
 }
 
 void Runner::run_stages() {
@@ -285,8 +298,8 @@ void Runner::run_stages() {
     try {
       run_stage(i);
     } catch (const Error& error) {
-      if (!try_again(error)) throw;
-      i = index_of("repair") - 1;
+      if (!may_try_again(error)) throw;
+      i = try_again(error) - 1;
       continue;
     }
     if (i < last_) safe_points_.pass("after stage " + stages_[i].name);
@@ -298,10 +311,15 @@ std::string Runner::success_sentence() const {
   return state_.sentence;
 }
 
-Outcome Runner::go() {
+Outcome Runner::go(const std::function<void(const std::string&)>& unheard) {
   Outcome outcome;
   std::vector<Vec3> where;
   try {
+    // Until the results are written: from there on it is not long to the end.
+    std::optional<Watchdog> dog;
+    if (unheard && team_.is_root())
+      dog.emplace([this] { return safe_points_.unheard(); }, patience_with_stages,
+                  [&] { unheard("Stopped in the middle of a stage; --resume continues from the last checkpoint."); });
     prepare();
     run_stages();
     if (team_.is_root()) outcome.sentence = success_sentence();
@@ -323,7 +341,7 @@ Outcome Runner::finish(Outcome outcome, const std::vector<Vec3>& where) {
       const bool failed = outcome.code != ExitCode::success && outcome.code != ExitCode::stopped;
       if (failed && state_.culprits.empty()) state_.culprits.places = where;
       write_results(state_, outcome);
-      state_.tries.push_back(try_json(state_.attempt, outcome.code, outcome.sentence));
+      state_.tries.push_back(try_json(setting().name, outcome.code, outcome.sentence));
       close_report(state_.report, state_.tries, outcome, current_, where);
       write_text(options_.output / "report.json", state_.report.dump(2) + "\n");
     });
@@ -335,12 +353,13 @@ Outcome Runner::finish(Outcome outcome, const std::vector<Vec3>& where) {
 
 }  // namespace
 
-Outcome run(MPI_Comm comm, const RunOptions& options, Log& log) {
+Outcome run(MPI_Comm comm, const RunOptions& options, Log& log,
+            const std::function<void(const std::string&)>& unheard) {
   Team team(comm, log);
   Outcome outcome;
   try {
     // A failure outside the stages is one of this rank alone unless all agree on it.
-    team.together([&] { outcome = Runner(team, options, log).go(); });
+    team.together([&] { outcome = Runner(team, options, log).go(unheard); });
   } catch (const Error& error) {
     outcome = {error.code(), error.sentence()};
   }

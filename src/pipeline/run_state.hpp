@@ -50,9 +50,10 @@ struct RunState {
   SafePoints& safe_points;
 
   TetInput input{};
-  FieldResult field{};  ///< of stage field, then of stage repair
+  std::size_t input_tets = 0;  ///< of the input as it was read (rank 0)
+  FieldResult field{};         ///< of stage field, then of stage repair
   RepairReport repair{};
-  int attempt = 0;            ///< which setting of the repair is being tried, on all ranks
+  int attempt = 0;            ///< which setting is being tried (tries.hpp), on all ranks
   SeamlessResult seamless{};  ///< of stage seamless, made exact by stage quantize
   QuantizeResult quantization{};
   std::optional<MapQuantizer> quantizer{};  ///< of the exact map; where a stage needs it and it is empty, it is built

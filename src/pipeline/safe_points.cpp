@@ -37,15 +37,20 @@ int SafePoints::local_cause() const {
 }
 
 bool SafePoints::stop_requested() {
-  int cause = cause_ != 0 ? cause_ : local_cause();
+  int cause = cause_ != 0 ? cause_.load() : local_cause();
   MPI_Allreduce(MPI_IN_PLACE, &cause, 1, MPI_INT, MPI_MAX, team_.comm());
   cause_ = cause;
   return cause_ != 0;
 }
 
 bool SafePoints::stop_requested_on_root() {
-  if (cause_ == 0) cause_ = local_cause();
-  if (int number = 0; cause_ == 0 && team_.stop_passed_on(number)) cause_ = number;
+  if (cause_ != 0) return true;
+  int cause = local_cause();
+  int main_thread = 0;
+  MPI_Is_thread_main(&main_thread);
+  if (int number = 0; cause == 0 && main_thread != 0 && team_.stop_passed_on(number)) cause = number;
+  // Never back to "none": another thread may have found a cause meanwhile.
+  if (cause != 0) cause_ = cause;
   return cause_ != 0;
 }
 
@@ -108,7 +113,11 @@ Control SafePoints::control(const std::string& basis, Progress& progress) {
 Control SafePoints::control_on_root(Progress& progress) {
   Control control;
   control.progress = [&progress](const std::string& what, double fraction) { progress.report(what, fraction); };
-  control.stop_requested = [this] { return told_ = stop_requested_on_root(); };
+  control.stop_requested = [this] {
+    if (!stop_requested_on_root()) return false;
+    told_ = true;
+    return true;
+  };
   return control;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -24,8 +25,11 @@ class SafePoints {
 
   /// True on all ranks once any of them got a stop signal or the time is up. Collective.
   bool stop_requested();
-  /// The same for rank 0 alone while the others wait in Team::on_root().
+  /// The same for rank 0 alone while the others wait in Team::on_root(). May be asked from any thread; signals of
+  /// other ranks are heard by the main thread only.
   bool stop_requested_on_root();
+  /// Whether this rank has a cause to stop that nothing has asked for yet. Called from any thread.
+  bool unheard() const { return cause_ == 0 && local_cause() != 0; }
   /// Throws Error(stopped) with its reason when stop_requested(). Collective.
   void pass(const std::string& where);
   /// The same when a Control of this object has told the stage that just returned to stop: it has no result.
@@ -55,8 +59,8 @@ class SafePoints {
   std::map<std::string, IterateRing> rings_on_root_;  ///< by name and basis
   std::filesystem::path directory_;
   bool resume_ = false;
-  bool told_ = false;
-  int cause_ = 0;  ///< 0: none, a signal number, or time_is_up
+  std::atomic<bool> told_ = false;
+  std::atomic<int> cause_ = 0;  ///< 0: none, a signal number, or time_is_up
 };
 
 }  // namespace hexfield

@@ -15,7 +15,9 @@
 #include "hexfield/mesh/input_check.hpp"
 #include "hexfield/mesh/manifold.hpp"
 #include "hexfield/mesh/quality.hpp"
+#include "hexfield/mesh/refine.hpp"
 #include "repair_values.hpp"
+#include "tries.hpp"
 
 namespace hexfield {
 
@@ -51,7 +53,8 @@ Stage read_stage() {
   stage.pack = [](const RunState& state) { return pack(state.input); };
   stage.unpack = [](RunState& state, const NamedArrays& arrays) { state.input = unpack_tet_input(arrays); };
   stage.judge = [](RunState& state) {
-    state.report["input"]["tets"] = state.input.mesh.num_tets();
+    state.input_tets = state.input.mesh.num_tets();
+    state.report["input"]["tets"] = state.input_tets;
     state.report["input"]["vertices"] = state.input.mesh.num_vertices();
     state.report["input"]["features"] = {{"points", state.input.features.points.size()},
                                          {"edges", state.input.features.edges.size()},
@@ -63,13 +66,22 @@ Stage read_stage() {
   return stage;
 }
 
+TrySetting setting_of(const RunState& state) {
+  return try_setting(state.options.repair, state.attempt, state.input_tets);
+}
+
 Stage field_stage() {
   Stage stage;
   stage.name = "field";
   stage.compute = [](RunState& state, const std::string& basis, Progress& progress) {
+    std::string name = basis;
+    state.team.on_root([&] {
+      if (setting_of(state).refined_input) refine_uniform(state.input.mesh, state.input.features);
+    });
+    if (state.attempt > 0) name += " try " + std::to_string(state.attempt);
     state.team.together([&] {
       state.field = compute_field(state.team.comm(), std::move(state.input.mesh), std::move(state.input.features),
-                                  state.options.field, state.safe_points.control(basis, progress));
+                                  state.options.field, state.safe_points.control(name, progress));
     });
     state.input = {};
   };
@@ -107,9 +119,9 @@ Stage repair_stage() {
     state.team.on_root([&] {
       const std::string name = basis + " try " + std::to_string(state.attempt);
       const auto found = state.safe_points.restore_on_root("repair", name);
-      RepairIterate start = found ? unpack_repair_iterate(*found) : start_repair(state.field);
-      RepairResult result = repair_field(std::move(start), state.field, varied(state.options.repair, state.attempt),
-                                         repair_control(state, name, progress));
+      const RepairControl control = repair_control(state, name, progress);
+      RepairIterate start = found ? unpack_repair_iterate(*found) : start_repair(state.field, control);
+      RepairResult result = repair_field(std::move(start), state.field, setting_of(state).repair, control);
       state.field = std::move(result.field);
       state.repair = std::move(result.report);
     });

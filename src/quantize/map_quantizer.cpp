@@ -6,6 +6,7 @@
 
 #include "hexfield/quantize/quantization.hpp"
 #include "integer_frames.hpp"
+#include "stretches.hpp"
 #include "wall_cells.hpp"
 
 namespace hexfield {
@@ -15,9 +16,10 @@ using namespace quantize;
 struct MapQuantizer::Impl {
   ChartMesh walls;
   WallCells cells;
+  std::size_t num_tets;
 
   Impl(const TetMesh& mesh, const Features& features, const EdgeCodes& codes, const SeamlessMap& map)
-      : walls(mesh, features, codes, map), cells(walls) {
+      : walls(mesh, features, codes, map), cells(walls), num_tets(mesh.num_tets()) {
     trace_and_reduce(walls, cells, true);
   }
 };
@@ -38,6 +40,10 @@ std::vector<double> MapQuantizer::integer_unknowns(const ConformingSpace& space,
     throw Error(ExitCode::no_integer_grid_map, "The integer lengths are not valid. " + wrong[0].sentence, wrong[0].ids,
                 wrong[0].places);
   return IntegerFrames(impl_->walls, impl_->cells, space, lengths).unknowns();
+}
+
+std::vector<Vec3> MapQuantizer::stretches(const std::vector<std::int64_t>& lengths) const {
+  return quantize::stretches(impl_->walls, impl_->cells, impl_->num_tets, lengths);
 }
 
 }  // namespace hexfield

@@ -8,6 +8,8 @@
 namespace hexfield::quantize {
 namespace {
 
+constexpr double smallest_bend = 1e-6;  // radians: less is rounding where walls cut a straight edge
+
 using octahedral::Label;
 
 struct EdgeOfWall {
@@ -211,14 +213,23 @@ void WallCells::find_nodes() {
   }
 }
 
+// A polyline inscribed in a curve shows none of the turning in the first and the last half of its end edges.
 double WallCells::turning(const std::vector<std::int32_t>& chain) const {
   const auto place = [&](std::size_t k) -> const Vec3& { return mesh_.places[static_cast<std::size_t>(chain[k])]; };
-  double sum = 0;
-  for (std::size_t k = 1; k + 1 < chain.size(); ++k) {
-    const Vec3 in = place(k) - place(k - 1), out = place(k + 1) - place(k);
-    sum += std::atan2(in.cross(out).norm(), in.dot(out));
+  double sum = 0, length = 0, first_bend = 0, last_bend = 0;
+  for (std::size_t k = 1; k < chain.size(); ++k) {
+    const Vec3 in = place(k) - place(k - 1);
+    length += in.norm();
+    if (k + 1 == chain.size()) break;
+    const Vec3 out = place(k + 1) - place(k);
+    const double angle = std::atan2(in.cross(out).norm(), in.dot(out));
+    if (angle < smallest_bend) continue;
+    if (sum == 0) first_bend = length;
+    last_bend = length;
+    sum += angle;
   }
-  return sum;
+  const double shown = length - (first_bend + length - last_bend) / 2;
+  return sum > 0 ? sum * length / shown : 0;
 }
 
 void WallCells::chain_arcs() {

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,8 +20,6 @@ using octahedral::Rotation;
 
 // Arcs on edges whose mean dihedral angle is farther from flat are at home there: one quad fits a right angle.
 constexpr double smooth_angle = M_PI / 4;
-// How far below its old place a vertex may go, in mean edge lengths at it; the best one is taken.
-constexpr std::array<double, 6> depths = {0.4, 0.25, 0.15, 0.08, 0.04, 0.02};
 
 bool on_feature_curve(const RepairState& state, VertexId v) {
   if (state.features.points.contains(v)) return true;
@@ -98,36 +94,6 @@ bool may_be_pushed(const RepairState& state, VertexId v) {
                                     !state.mesh.is_boundary(h) && state.features.faces.contains(state.mesh.key(h)))
         return false;
   return true;
-}
-
-double worst_at(const TetMesh& mesh, VertexId v) {
-  double worst = 0;
-  for (TetId t : vertex_star(mesh, v)) worst = std::max(worst, tet_distortion(mesh, t));
-  return worst;
-}
-
-// Moves v below its cover such that all tets at v are positive, the worst as good as possible.
-bool move_below(RepairState& state, VertexId v, const std::vector<HalfFaceId>& covered) {
-  const Vec3 before = state.mesh.point(v);
-  Vec3 inward = Vec3::Zero(), middle = Vec3::Zero();
-  double length = 0;
-  for (HalfFaceId h : covered) inward -= outward_normal(state.mesh, h);
-  const auto edges = edges_at(state.mesh, v);
-  for (const EdgeKey& e : edges) {
-    const Vec3 arm = state.mesh.point(other_end(e, v)) - before;
-    middle += arm;
-    length += arm.norm() / static_cast<double>(edges.size());
-  }
-  double best = std::numeric_limits<double>::infinity();
-  Vec3 place = before;
-  for (const Vec3& direction : {inward, middle, Vec3(inward.normalized() + middle.normalized())})
-    for (double depth : depths) {
-      if (!(direction.norm() > 0)) continue;
-      state.mesh.points[v.index()] = before + depth * length * direction.normalized();
-      if (const double worst = worst_at(state.mesh, v); worst < best) best = worst, place = state.mesh.point(v);
-    }
-  state.mesh.points[v.index()] = place;
-  return best < std::numeric_limits<double>::infinity();
 }
 
 // The tet on a covered face.

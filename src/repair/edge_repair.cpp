@@ -16,6 +16,8 @@ using octahedral::Rotation;
 
 namespace {
 
+constexpr std::size_t work_of_zipping = 100;  // with the smoothing of the frames around
+
 bool is_half_turn(Rotation r) { return r != octahedral::identity && octahedral::product(r, r) == octahedral::identity; }
 bool is_quarter_turn(Rotation r) { return octahedral::is_axial(r) && r != octahedral::identity && !is_half_turn(r); }
 
@@ -112,6 +114,7 @@ bool best_unzip(RepairState& state, const EdgeKey& e, const std::vector<Unzip>& 
   Score least;
   for (const Unzip& u : candidates) {
     const FieldSnapshot before(state, tets_touching(state.mesh, std::span(&u.face, 1)));
+    state.begin_operation(work_of_zipping);
     if (!unzip(state, e, u)) continue;
     if (accept()) {
       const Score score = score_of(state, e, u.face);
@@ -231,6 +234,7 @@ bool remove_singular_triangle(RepairState& state, const FaceKey& face) {
     if (!state.codes.contains(e) || state.features.edges.contains(e) || !ring_of(state.mesh, e[0], e[1]).closed)
       return false;
   const FieldSnapshot before(state, tets_touching(state.mesh, std::span(&face, 1)));
+  state.begin_operation(work_of_zipping);
   if (!unzip(state, edges[0], {face, octahedral::identity})) return false;
   if (std::none_of(edges.begin(), edges.end(), [&](const EdgeKey& e) { return state.codes.contains(e); })) return true;
   before.restore(state);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "hexfield/field/edge_codes.hpp"
 #include "hexfield/repair/one_ring.hpp"
 #include "hexfield/repair/state_ops.hpp"
 #include "hexfield/repair/vertex_repair.hpp"
@@ -10,29 +11,87 @@
 namespace hexfield {
 namespace {
 
+constexpr double straight = -0.7;  // dot of the directions of two edges of a curve that goes on (135 degrees)
+
 struct EdgesAt {
-  std::vector<EdgeCode> curve;  // codes of feature edges
-  std::vector<EdgeKey> arcs;    // other singular edges
+  std::vector<EdgeKey> curve;  // feature edges
+  std::vector<EdgeKey> arcs;   // other singular edges
 };
 
-bool is_end_on_curve(const TetMesh& mesh, const EdgesAt& edges) {
-  if (edges.arcs.size() != 1 || edges.curve.size() != 2 || edges.curve[0] != edges.curve[1]) return false;
-  return ring_of(mesh, edges.arcs[0][0], edges.arcs[0][1]).closed;
+// A feature point on a curve that goes on straight is one of a CAD model's seams, not a corner.
+bool is_end_on_curve(const RepairState& state, VertexId v, const EdgesAt& edges) {
+  if (edges.arcs.size() != 1 || edges.curve.size() != 2) return false;
+  if (code_of(state, edges.curve[0]) != code_of(state, edges.curve[1])) return false;
+  if (state.features.points.contains(v)) {
+    const auto direction = [&](const EdgeKey& e) {
+      return (state.mesh.point(other_end(e, v)) - state.mesh.point(v)).normalized();
+    };
+    if (direction(edges.curve[0]).dot(direction(edges.curve[1])) > straight) return false;
+  }
+  return ring_of(state.mesh, edges.arcs[0][0], edges.arcs[0][1]).closed;
+}
+
+EdgesAt edges_of_end(const RepairState& state, VertexId v) {
+  EdgesAt found;
+  for (const EdgeKey& e : edges_at(state.mesh, v)) {
+    if (state.features.edges.contains(e))
+      found.curve.push_back(e);
+    else if (state.codes.contains(e))
+      found.arcs.push_back(e);
+  }
+  return found;
+}
+
+using Labels = std::map<TetId, octahedral::Label>;
+
+// The flow along `edge` away from v in all tets at v that are reached through no feature face; empty when it has none.
+Labels flow_away(const RepairState& state, VertexId v, const EdgeKey& edge) {
+  const VertexId to = other_end(edge, v);
+  const EdgeRing ring = ring_of(state.mesh, v, to);
+  const auto out = outgoing_label(state.mesh, state.field, ring, code_of(state, edge), v, to);
+  if (out == octahedral::no_label) return {};
+  Labels labels;
+  std::vector<TetId> queue;
+  const auto around = transport_around(state.field, ring, out);
+  for (std::size_t k = 0; k < ring.tets.size(); ++k) {
+    labels.emplace(ring.tets[k], around[k]);
+    queue.push_back(ring.tets[k]);
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i)
+    for (int f = 0; f < 4; ++f) {
+      const HalfFaceId h(queue[i], f);
+      if (state.mesh.vertices(queue[i])[static_cast<std::size_t>(f)] == v || is_feature_face(state, h)) continue;
+      const TetId next = state.mesh.opposite_half_face(h).tet();
+      if (labels.emplace(next, transport(state.field, h, labels.at(queue[i]))).second) queue.push_back(next);
+    }
+  return labels;
 }
 
 }  // namespace
 
+bool is_zipper_on_curve(const RepairState& state, VertexId v) {
+  const EdgesAt edges = edges_of_end(state, v);
+  if (!is_end_on_curve(state, v, edges) || std::abs(code_of(state, edges.arcs[0])) != 1) return false;
+  for (const auto& [t, label] : flow_away(state, v, edges.arcs[0]))
+    for (int f = 0; f < 4; ++f)
+      if (const HalfFaceId h(t, f);
+          state.mesh.vertices(t)[static_cast<std::size_t>(f)] != v && is_feature_face(state, h) &&
+          closest_label(state.field.frames[t.index()], outward_normal(state.mesh, h)) == label)
+        return true;
+  return false;
+}
+
 std::vector<VertexId> ends_on_curves(const RepairState& state) {
   std::map<VertexId, EdgesAt> at;
   for (const auto& entry : state.features.edges)
-    for (VertexId v : entry.first) at[v].curve.push_back(code_of(state, entry.first));
+    for (VertexId v : entry.first) at[v].curve.push_back(entry.first);
   for (const auto& entry : state.codes)
     if (!state.features.edges.contains(entry.first))
       for (VertexId v : entry.first)
         if (const auto found = at.find(v); found != at.end()) found->second.arcs.push_back(entry.first);
   std::vector<VertexId> ends;
   for (const auto& [v, edges] : at)
-    if (is_end_on_curve(state.mesh, edges) && !state.features.points.contains(v)) ends.push_back(v);
+    if (is_end_on_curve(state, v, edges)) ends.push_back(v);
   return ends;
 }
 

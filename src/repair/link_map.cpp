@@ -1,6 +1,7 @@
 #include "link_map.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +17,7 @@ namespace {
 constexpr std::size_t next(std::size_t k) { return (k + 1) % 3; }
 
 // Dihedral angle at the first vector of the tet of the origin and three vectors with det > 0.
-double angle_at(const Vec3& a, const Vec3& b, const Vec3& c) {
+double dihedral_at(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 m = a.cross(b), n = a.cross(c);
   return std::atan2(a.dot(m.cross(n)) / a.norm(), m.dot(n));
 }
@@ -46,7 +47,7 @@ class Untangler {
     }
     for (const LinkTriangle& t : link.triangles) entries_.push_back(entries_of(t));
     gradient_.resize(size_);
-    hessian_.resize(size_, size_);
+    lay_out_hessian();
   }
 
   // Untangles; true when a drawing was reached.
@@ -76,6 +77,7 @@ class Untangler {
     double sign = 1;
   };
   using Entries = std::array<Entry, 9>;
+  using Slots = std::array<int, 81>;  // per pair of entries: place in the values of the Hessian, -1 above its diagonal
 
   Entries entries_of(const LinkTriangle& t) const {
     Entries entries;
@@ -88,6 +90,33 @@ class Untangler {
                 first_[static_cast<std::size_t>(t.vertex[k])][static_cast<std::size_t>(j)], r(i, j)};
     }
     return entries;
+  }
+
+  // Lower triangle of the Hessian with one place per pair of unknowns that share a triangle.
+  void lay_out_hessian() {
+    std::vector<Eigen::Triplet<double>> triplets;
+    for (int i = 0; i < size_; ++i) triplets.emplace_back(i, i, 0.0);
+    for_pairs([&](std::size_t, std::size_t, int row, int column) { triplets.emplace_back(row, column, 0.0); });
+    hessian_.resize(size_, size_);
+    hessian_.setFromTriplets(triplets.begin(), triplets.end());
+    slots_.resize(entries_.size());
+    for (Slots& s : slots_) s.fill(-1);
+    for_pairs([&](std::size_t t, std::size_t pair, int row, int column) {
+      const int* first = hessian_.innerIndexPtr() + hessian_.outerIndexPtr()[column];
+      const int* last = hessian_.innerIndexPtr() + hessian_.outerIndexPtr()[column + 1];
+      slots_[t][pair] = static_cast<int>(std::lower_bound(first, last, row) - hessian_.innerIndexPtr());
+    });
+    solver_.analyzePattern(hessian_);
+  }
+
+  template <class Visit>
+  void for_pairs(const Visit& visit) const {
+    for (std::size_t t = 0; t < entries_.size(); ++t)
+      for (std::size_t a = 0; a < 9; ++a)
+        for (std::size_t b = 0; b < 9; ++b) {
+          const int row = entries_[t][a].dof, column = entries_[t][b].dof;
+          if (row >= column && column >= 0) visit(t, 9 * a + b, row, column);
+        }
   }
 
   Eigen::VectorXd pack(const std::vector<Vec3>& images) const {
@@ -130,19 +159,20 @@ class Untangler {
 
   double derivatives(const Eigen::VectorXd& y, double epsilon) {
     gradient_.setZero();
-    hessian_.setZero();
+    std::fill_n(hessian_.valuePtr(), hessian_.nonZeros(), 0.0);
     double sum = 0;
     Vec9 g;
     Mat9 h;
     for (std::size_t t = 0; t < entries_.size(); ++t) {
       sum += solve::untangle_energy(jacobian(t, y), epsilon, g, h);
-      add(entries_[t], g, h);
+      add(t, g, h);
     }
     return sum;
   }
 
   // J = Y P with P the inverse of the reference: rows of J are rows of Y times P.
-  void add(const Entries& entries, const Vec9& g, const Mat9& h) {
+  void add(std::size_t t, const Vec9& g, const Mat9& h) {
+    const Entries& entries = entries_[t];
     for (int i = 0; i < 3; ++i) {
       const Vec3 along = inverse_ * g.segment<3>(3 * i);
       for (int k = 0; k < 3; ++k)
@@ -152,9 +182,9 @@ class Untangler {
         const Mat3 block = inverse_ * h.block<3, 3>(3 * i, 3 * j) * inverse_.transpose();
         for (int k = 0; k < 3; ++k)
           for (int l = 0; l < 3; ++l) {
-            const Entry& a = entries[static_cast<std::size_t>(3 * k + i)];
-            const Entry& b = entries[static_cast<std::size_t>(3 * l + j)];
-            if (a.dof >= 0 && b.dof >= 0) hessian_(a.dof, b.dof) += a.sign * b.sign * block(k, l);
+            const auto a = static_cast<std::size_t>(3 * k + i), b = static_cast<std::size_t>(3 * l + j);
+            if (const int slot = slots_[t][9 * a + b]; slot >= 0)
+              hessian_.valuePtr()[slot] += entries[a].sign * entries[b].sign * block(k, l);
           }
       }
     }
@@ -162,8 +192,10 @@ class Untangler {
 
   // One Newton step with a backtracking line search.
   bool step(Eigen::VectorXd& y, double epsilon, double energy_now) {
-    hessian_.diagonal().array() += 1e-9 * hessian_.diagonal().maxCoeff();
-    const Eigen::VectorXd direction = -hessian_.llt().solve(gradient_);
+    solver_.setShift(1e-9 * hessian_.diagonal().maxCoeff());
+    solver_.factorize(hessian_);
+    if (solver_.info() != Eigen::Success) return false;
+    const Eigen::VectorXd direction = -solver_.solve(gradient_);
     const double slope = gradient_.dot(direction);
     if (!(slope < 0)) return false;
     for (double length = 1; length > 1e-6; length /= 2) {
@@ -182,8 +214,10 @@ class Untangler {
   int size_ = 0;
   std::vector<std::array<int, 3>> first_;  // per link vertex and coordinate: unknown or -1
   std::vector<Entries> entries_;           // per triangle
+  std::vector<Slots> slots_;               // per triangle
   Eigen::VectorXd gradient_;
-  Eigen::MatrixXd hessian_;
+  Eigen::SparseMatrix<double> hessian_;  // lower triangle
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver_;
 };
 
 }  // namespace
@@ -211,7 +245,7 @@ bool is_drawing(const Link& link, const std::vector<Vec3>& images, double smalle
     std::array<Vec3, 3> p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = image_of(link, t, k, images).normalized();
     if (!(p[0].dot(p[1].cross(p[2])) > smallest_det)) return false;
-    for (std::size_t k = 0; k < 3; ++k) angles[3 * t + k] = angle_at(p[k], p[next(k)], p[next(next(k))]);
+    for (std::size_t k = 0; k < 3; ++k) angles[3 * t + k] = dihedral_at(p[k], p[next(k)], p[next(next(k))]);
   }
   return std::all_of(link.sectors.begin(), link.sectors.end(), [&](const LinkSector& s) {
     double sum = 0;

@@ -69,6 +69,8 @@ bool admits_area(const Link& link);
 /// The triangulation may be what forbids a drawing: a side that is no feature joins two vertices that are not free, or
 /// so few triangles share a sector that one of them would need an angle of half a turn.
 bool is_cramped(const Link& link);
+/// Hash of all that decides whether a drawing exists: everything but tets, frames, directions and guesses.
+VerdictMemory::Key structure_hash(const Link& link);
 /// Images (per link vertex) of a drawing, found from several guesses of one link; empty when none was found.
 std::vector<Vec3> find_drawing(const std::vector<Link>& guesses, const VertexMapOptions& options);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "edge_meshability.hpp"
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/field/edge_codes.hpp"
 
@@ -22,19 +23,8 @@ bool fits(Rotation monodromy, EdgeCode code) {
 }
 
 bool meshable(const FieldView& view, const EdgeKey& edge, TetId seed) {
-  const auto found = view.codes.find(edge);
-  const EdgeCode code = found == view.codes.end() ? 0 : found->second;
-  if (code == compound_code || code == undetermined_code) return false;
   const EdgeRing ring = edge_ring(view.mesh, seed, edge[0], edge[1]);
-  const int quads = (ring.closed ? 4 : 2) + code;
-  if (quads < 1 || (ring.closed && !fits(monodromy(view.field, ring), code))) return false;
-  const auto between = sectors(view.mesh, view.features, view.field, ring, edge[0], edge[1]);
-  int sum = 0;
-  for (const Sector& s : between) {
-    if (s.quads == undetermined_code || s.quads < 1) return false;
-    sum += s.quads;
-  }
-  return between.empty() || sum == quads;
+  return edge_meshable(view, edge, ring, sectors(view.mesh, view.features, view.field, ring, edge[0], edge[1]));
 }
 
 // Vertices with a special edge or a feature face, and all vertices that have tets.
@@ -79,17 +69,34 @@ void judge_edges(const FieldView& view, const std::vector<std::pair<EdgeKey, Tet
 void judge_vertices(const FieldView& view, std::span<const VertexId> vertices, const VertexMapOptions& options,
                     Meshability& result) {
   std::vector<VertexVerdict> verdicts(vertices.size());
+  std::vector<std::optional<VerdictMemory::Key>> keys(vertices.size());
   parallel_for(vertices.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) verdicts[i] = vertex_verdict(view, vertices[i], options);
+    for (std::size_t i = begin; i < end; ++i)
+      verdicts[i] = vertex_verdict(view, vertices[i], options, nullptr, &keys[i]);
   });
   result.solved = vertices.size();
   for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (keys[i]) result.verdicts.note(*keys[i], verdicts[i]);
     if (verdicts[i] == VertexVerdict::not_meshable) result.bad_vertices.push_back(vertices[i]);
     if (verdicts[i] == VertexVerdict::meshable_when_split) result.split_first.push_back(vertices[i]);
   }
 }
 
 }  // namespace
+
+bool edge_meshable(const FieldView& view, const EdgeKey& edge, const EdgeRing& ring, std::span<const Sector> between) {
+  const auto found = view.codes.find(edge);
+  const EdgeCode code = found == view.codes.end() ? 0 : found->second;
+  if (code == compound_code || code == undetermined_code) return false;
+  const int quads = (ring.closed ? 4 : 2) + code;
+  if (quads < 1 || (ring.closed && !fits(monodromy(view.field, ring), code))) return false;
+  int sum = 0;
+  for (const Sector& s : between) {
+    if (s.quads == undetermined_code || s.quads < 1) return false;
+    sum += s.quads;
+  }
+  return between.empty() || sum == quads;
+}
 
 bool edge_meshable(const FieldView& view, const EdgeKey& edge) {
   const TetId seed = find_tet_with_edge(view.mesh, edge[0], edge[1]);

@@ -1,6 +1,7 @@
 #include "hexfield/repair/neighbourhood.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "hexfield/repair/state_ops.hpp"
 
@@ -86,20 +87,55 @@ std::set<EdgeKey> copied_edges(const std::set<EdgeKey>& all, const std::vector<V
   return out;
 }
 
+// Rings around so many seeds that looking at every tet once per ring is less work than walking through stars.
+std::vector<TetId> tets_around_many(const TetMesh& mesh, std::span<const VertexId> seeds, int rings) {
+  std::vector<int> reached(mesh.num_vertices(), rings + 1);  // ring in which a vertex is reached
+  for (VertexId v : seeds) reached[v.index()] = 0;
+  std::vector<char> inside(mesh.num_tets(), 0);
+  for (int ring = 0; ring <= rings; ++ring)
+    for (std::size_t i = 0; i < mesh.num_tets(); ++i) {
+      const auto& tet = mesh.tets[i];
+      if (inside[i] != 0 || !tet[0].valid()) continue;
+      inside[i] = std::any_of(tet.begin(), tet.end(), [&](VertexId v) { return reached[v.index()] <= ring; });
+      if (inside[i] == 0) continue;
+      for (VertexId v : tet) reached[v.index()] = std::min(reached[v.index()], ring + 1);
+    }
+  std::vector<TetId> tets;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (inside[i] != 0) tets.emplace_back(static_cast<std::int64_t>(i));
+  return tets;
+}
+
+constexpr std::size_t many_seeds = 100;  // one in so many tets
+
 }  // namespace
 
 std::vector<TetId> tets_around(const TetMesh& mesh, std::span<const VertexId> seeds, int rings) {
-  std::vector<VertexId> vertices(seeds.begin(), seeds.end());
+  if (many_seeds * seeds.size() > mesh.num_tets()) return tets_around_many(mesh, seeds, rings);
+  std::vector<VertexId> reached(seeds.begin(), seeds.end());
+  std::sort(reached.begin(), reached.end());
+  reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+  std::vector<VertexId> rim = reached;  // vertices whose stars are still missing
   std::vector<TetId> tets;
   for (int ring = 0; ring <= rings; ++ring) {
-    tets.clear();
-    for (VertexId v : vertices) {
+    std::vector<TetId> more;
+    for (VertexId v : rim) {
       const auto star = vertex_star(mesh, v);
-      tets.insert(tets.end(), star.begin(), star.end());
+      more.insert(more.end(), star.begin(), star.end());
     }
-    std::sort(tets.begin(), tets.end());
-    tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
-    if (ring < rings) vertices = vertices_of(mesh, tets);
+    std::sort(more.begin(), more.end());
+    more.erase(std::unique(more.begin(), more.end()), more.end());
+    std::vector<TetId> all;
+    all.reserve(tets.size() + more.size());
+    std::set_union(tets.begin(), tets.end(), more.begin(), more.end(), std::back_inserter(all));
+    tets = std::move(all);
+    if (ring == rings) break;
+    const auto vertices = vertices_of(mesh, more);
+    rim.clear();
+    std::set_difference(vertices.begin(), vertices.end(), reached.begin(), reached.end(), std::back_inserter(rim));
+    const auto middle = static_cast<std::ptrdiff_t>(reached.size());
+    reached.insert(reached.end(), rim.begin(), rim.end());
+    std::inplace_merge(reached.begin(), reached.begin() + middle, reached.end());
   }
   return tets;
 }
@@ -134,6 +170,7 @@ Neighbourhood::Neighbourhood(const RepairState& state, std::span<const TetId> re
   local.codes = copied_entries(state.codes, vertex_parent_, local_id);
   local.pairs = copied_entries(state.pairs, vertex_parent_, local_id);
   local.kept = copied_edges(state.kept, vertex_parent_, local_id);
+  local.watch = state.watch;
   features_before_ = local.features;
   codes_before_ = local.codes;
   pairs_before_ = local.pairs;

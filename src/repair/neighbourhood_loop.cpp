@@ -20,9 +20,11 @@ class Claims {
     ++round_;
     claimed_.resize(tets, 0);
   }
+  bool taken(std::span<const TetId> tets) const {
+    return std::any_of(tets.begin(), tets.end(), [&](TetId t) { return claimed_[t.index()] == round_; });
+  }
   bool claim(std::span<const TetId> footprint) {
-    for (TetId t : footprint)
-      if (claimed_[t.index()] == round_) return false;
+    if (taken(footprint)) return false;
     for (TetId t : footprint) claimed_[t.index()] = round_;
     return true;
   }
@@ -44,7 +46,9 @@ struct Task {
 };
 
 void work(const RepairState& state, const Place& place, const LocalOperation& operation, Task& task) {
-  task.copy = std::make_unique<Neighbourhood>(state, tets_around(state.mesh, place.seeds, place.rings));
+  const std::vector<TetId> region = tets_around(state.mesh, place.seeds, place.rings);
+  state.begin_operation(region.size());
+  task.copy = std::make_unique<Neighbourhood>(state, region);
   std::vector<VertexId> seeds;
   for (VertexId v : place.seeds) seeds.push_back(task.copy->to_local(v));
   task.changed = operation(*task.copy, seeds);
@@ -57,13 +61,14 @@ std::vector<char> for_places(RepairState& state, std::span<const Place> places, 
   std::vector<std::size_t> waiting(places.size());
   for (std::size_t i = 0; i < waiting.size(); ++i) waiting[i] = i;
   Claims claims;
-  while (!waiting.empty()) {
+  while (!waiting.empty() && !state.exhausted()) {
     claims.begin_round(state.mesh.num_tets());
     std::vector<Task> tasks;
     std::vector<std::size_t> later;
     for (std::size_t i : waiting) {
       if (!alive(state.mesh, places[i])) continue;
-      if (claims.claim(footprint(state, places[i])))
+      // Looking at the stars of the seeds alone spares most of the crowded places their footprints.
+      if (!claims.taken(tets_around(state.mesh, places[i].seeds, 0)) && claims.claim(footprint(state, places[i])))
         tasks.push_back({i, nullptr});
       else
         later.push_back(i);

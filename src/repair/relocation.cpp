@@ -5,9 +5,11 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/field/edge_codes.hpp"
+#include "hexfield/mesh/quality.hpp"
 #include "hexfield/repair/neighbourhood.hpp"
 #include "hexfield/repair/state_ops.hpp"
 #include "relocation_moves.hpp"
@@ -16,17 +18,10 @@
 namespace hexfield {
 namespace {
 
+constexpr std::size_t work_of_step = 10;  // Hessian, factorisation and line search per tet
+
 using octahedral::Label;
 using Place = SingularVertex::Place;
-
-double mesh_volume(const TetMesh& mesh) {
-  return parallel_sum(mesh.num_tets(), 4096, [&](std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for (std::size_t i = begin; i < end; ++i)
-      if (const TetId t(static_cast<std::int64_t>(i)); mesh.alive(t)) sum += signed_volume6(mesh, t) / 6;
-    return sum;
-  });
-}
 
 // Mean direction of the rotation axis (the axis closest to the edge without one) over the tets around an edge;
 // zero when the axes cancel.
@@ -50,10 +45,32 @@ Vec3 field_direction(const RepairState& state, const EdgeKey& e) {
   return best.norm() < 1e-6 ? Vec3(0, 0, 0) : Vec3(best.normalized());
 }
 
-// The arcs that repel each other: singular edges of one pair id and one sign.
+// An edge of the arcs that repel each other: singular edges of one pair id and one sign.
 struct PairedEdge {
   EdgeKey edge;
   std::pair<int, bool> arc;  // id, sign of the code
+};
+
+// All of them, ordered by edge, and by vertex.
+struct PairedEdges {
+  std::vector<PairedEdge> edges;
+  std::vector<std::pair<VertexId, std::size_t>> ends;  // vertex and place in `edges`, ascending
+
+  explicit PairedEdges(const RepairState& state) {
+    for (const auto& [e, id] : state.pairs) {
+      const EdgeCode code = code_of(state, e);
+      if (code == 0) continue;
+      for (VertexId v : e) ends.emplace_back(v, edges.size());
+      edges.push_back({e, {id, code > 0}});
+    }
+    std::sort(ends.begin(), ends.end());
+  }
+  std::span<const std::pair<VertexId, std::size_t>> at(VertexId v) const {
+    const auto first = std::lower_bound(ends.begin(), ends.end(), std::pair(v, std::size_t{0}));
+    auto last = first;
+    while (last != ends.end() && last->first == v) ++last;
+    return {first, last};
+  }
 };
 
 class Builder {
@@ -65,8 +82,7 @@ class Builder {
       if (v.place != Place::fixed) free.push_back(v.vertex);
     tets_ = tets_around(state.mesh, free, 0);
     vertices_ = vertices_of(state.mesh, tets_);
-    const double volume = options.volume > 0 ? options.volume : mesh_volume(state.mesh);
-    scale_ = 1 / (0.1 * std::cbrt(volume));
+    scale_ = 1 / (0.1 * std::cbrt(options.volume > 0 ? options.volume : total_volume(state.mesh)));
     std::vector<Vec3> points;
     std::vector<RelocationEnergy::Freedom> freedoms(vertices_.size());
     for (VertexId v : vertices_) points.push_back(state.mesh.point(v));
@@ -137,32 +153,24 @@ class Builder {
     }
   }
 
-  std::vector<PairedEdge> paired_edges() const {
-    std::vector<PairedEdge> edges;
-    for (const auto& [e, id] : state_.pairs)
-      if (const EdgeCode code = code_of(state_, e); code != 0) edges.push_back({e, {id, code > 0}});
-    return edges;
-  }
-
   // Every vertex of a paired arc is pushed to one target length from the closest point of another such arc nearby.
   void add_repulsions() {
-    const std::vector<PairedEdge> edges = paired_edges();
-    if (edges.empty()) return;
+    const PairedEdges paired(state_);
+    if (paired.edges.empty()) return;
     std::map<std::pair<int, bool>, double> shortest;
-    for (const PairedEdge& p : edges)
+    for (const PairedEdge& p : paired.edges)
       for (VertexId v : p.edge) {
         const auto found = shortest.emplace(p.arc, state_.target_length[v.index()]).first;
         found->second = std::min(found->second, state_.target_length[v.index()]);
       }
     for (const auto& v : singular_) {
       if (v.place == Place::fixed || v.spokes.size() > 2) continue;
-      const auto own = std::find_if(edges.begin(), edges.end(), [&](const PairedEdge& p) {
-        return p.edge[0] == v.vertex || p.edge[1] == v.vertex;
-      });
-      if (own == edges.end()) continue;
+      const auto own = paired.at(v.vertex);
+      if (own.empty()) continue;
+      const auto& arc = paired.edges[own.front().second].arc;
       const Vec3 p = state_.mesh.point(v.vertex);
-      const auto [closest, distance] = closest_on_others(v.vertex, own->arc, edges);
-      const double wished = shortest.at(own->arc);
+      const auto [closest, distance] = closest_on_others(v.vertex, arc, paired);
+      const double wished = shortest.at(arc);
       if (!(distance < wished) || distance == 0) continue;
       const Vec3 target = (p + closest) / 2 + wished * (p - closest) / distance;
       energy_->add_attraction(number(v.vertex), target, options_.repulsion * scale_ / (2 * distance));
@@ -171,16 +179,17 @@ class Builder {
   }
 
   std::pair<Vec3, double> closest_on_others(VertexId v, const std::pair<int, bool>& arc,
-                                            const std::vector<PairedEdge>& edges) const {
+                                            const PairedEdges& paired) const {
     const VertexId seeds[] = {v};
-    const auto near = vertices_of(state_.mesh, tets_around(state_.mesh, seeds, 1));
+    std::vector<std::size_t> near;
+    for (VertexId w : vertices_of(state_.mesh, tets_around(state_.mesh, seeds, 1)))
+      for (const auto& end : paired.at(w)) near.push_back(end.second);
+    std::sort(near.begin(), near.end());
     std::pair<Vec3, double> best{Vec3::Zero(), std::numeric_limits<double>::infinity()};
     const Vec3& p = state_.mesh.point(v);
-    for (const PairedEdge& other : edges) {
+    for (std::size_t i : near) {
+      const PairedEdge& other = paired.edges[i];
       if (other.arc == arc || other.edge[0] == v || other.edge[1] == v) continue;
-      if (!std::binary_search(near.begin(), near.end(), other.edge[0]) &&
-          !std::binary_search(near.begin(), near.end(), other.edge[1]))
-        continue;
       const Vec3 q = closest_on_segment(p, state_.mesh.point(other.edge[0]), state_.mesh.point(other.edge[1]));
       if ((q - p).norm() < best.second) best = {q, (q - p).norm()};
     }
@@ -222,7 +231,8 @@ RelocationReport relocate_singularities(RepairState& state, const ClosestSurface
   RelocationReport report;
   const Builder builder(state, options);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(builder.energy().num_unknowns());
-  report.newton = descend(builder.energy(), y, options.max_iterations, options.tolerance);
+  report.newton = descend(builder.energy(), y, options.max_iterations, options.tolerance,
+                          [&] { state.begin_operation(work_of_step * builder.tets().size()); });
   std::vector<Move> moves = builder.moves(y);
   report.vertices = static_cast<int>(moves.size());
   project_to_originals(moves, original_surface, original_curves);

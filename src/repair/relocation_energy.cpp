@@ -166,9 +166,7 @@ void RelocationEnergy::element_derivatives(std::size_t e, const Eigen::VectorXd&
   }
   restrict_to_unknowns(points, gradient, hessian, out);
   if (quadratic) return;
-  Eigen::MatrixXd block = out.hessian.topLeftCorner(out.count, out.count);
-  project_to_semidefinite(block);
-  out.hessian.topLeftCorner(out.count, out.count) = block;
+  project_to_semidefinite(out.hessian.topLeftCorner(out.count, out.count));
 }
 
 void RelocationEnergy::restrict_to_unknowns(std::span<const int> points, const std::array<Vec3, 4>& gradient,

@@ -30,7 +30,8 @@ bool search(const RelocationEnergy& energy, const Eigen::VectorXd& gradient, con
 
 }  // namespace
 
-NewtonDescent descend(const RelocationEnergy& energy, Eigen::VectorXd& y, int max_iterations, double tolerance) {
+NewtonDescent descend(const RelocationEnergy& energy, Eigen::VectorXd& y, int max_iterations, double tolerance,
+                      const std::function<void()>& before_step) {
   NewtonDescent report;
   report.start = report.end = energy.value(y);
   if (energy.num_unknowns() == 0 || !std::isfinite(report.start)) return report;
@@ -38,6 +39,7 @@ NewtonDescent descend(const RelocationEnergy& energy, Eigen::VectorXd& y, int ma
   Eigen::SparseMatrix<double> hessian;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
   while (report.iterations < max_iterations) {
+    if (before_step) before_step();
     const double before = energy.derivatives(y, gradient, hessian);
     solver.setShift(shift * hessian.diagonal().mean());
     if (report.iterations == 0) solver.analyzePattern(hessian);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hexfield/base/error.hpp"
 #include "hexfield/repair/relocation_energy.hpp"
 
 namespace hexfield {
@@ -142,11 +143,15 @@ TriangleShape triangle_shape_derivatives(const std::array<Vec3, 3>& x, const Vec
 }
 
 void project_to_semidefinite(Eigen::Ref<Eigen::MatrixXd> matrix) {
+  constexpr int most = 12;  // unknowns of a tet: no memory from the heap
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
+  require(matrix.rows() <= most, "An element of the relocation has more than twelve unknowns.");
   if (matrix.rows() == 0) return;
-  if (Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
-  const Eigen::VectorXd clamped = eigen.eigenvalues().cwiseMax(0.0);
-  matrix = eigen.eigenvectors() * clamped.asDiagonal() * eigen.eigenvectors().transpose();
+  const Small given = matrix;
+  if (Eigen::LLT<Small>(given).info() == Eigen::Success) return;
+  const Eigen::SelfAdjointEigenSolver<Small> eigen(given);
+  const Small scaled = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal();
+  matrix.noalias() = scaled * eigen.eigenvectors().transpose();
 }
 
 }  // namespace hexfield

@@ -60,14 +60,17 @@ double worst_distortion(const TetMesh& mesh, std::span<const TetId> tets) {
   return worst;
 }
 
-std::vector<SizedEdge> alive_edges(const RemeshContext& context, std::span<const TetId> tets, bool longest_first) {
+std::vector<SizedEdge> sized_edges(const RemeshContext& context, std::span<const TetId> tets) {
   std::vector<SizedEdge> edges;
   for (const auto& [e, seed] : edges_with_tets(context.state.mesh, tets))
     edges.push_back({e, seed, context.relative_length(e)});
+  return edges;
+}
+
+void sort_by_length(std::vector<SizedEdge>& edges, bool longest_first) {
   std::stable_sort(edges.begin(), edges.end(), [&](const SizedEdge& a, const SizedEdge& b) {
     return longest_first ? a.length > b.length : a.length < b.length;
   });
-  return edges;
 }
 
 RemeshReport remesh(RepairState& state, std::span<const TetId> region, const RemeshOptions& options) {

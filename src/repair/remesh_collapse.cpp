@@ -216,15 +216,20 @@ bool try_collapse(RemeshContext& context, const VertexMarks& marks, VertexId fro
   return Collapse(context, marks, from, to).run();
 }
 
+constexpr std::size_t typical_star = 24;  // tets at a vertex
+
 void collapse_pass(RemeshContext& context, std::span<const TetId> region) {
-  std::vector<SizedEdge> edges = alive_edges(context, region, false);
+  std::vector<SizedEdge> edges = sized_edges(context, region);
   std::erase_if(edges, [&](const SizedEdge& e) { return e.length >= context.options.collapse_below; });
+  sort_by_length(edges, false);
   if (edges.empty()) return;
   const VertexMarks marks(context.state);
   const TetMesh& mesh = context.state.mesh;
   for (const SizedEdge& e : edges) {
     if (!mesh.vertex_tet[e.edge[0].index()].valid() || !mesh.vertex_tet[e.edge[1].index()].valid()) continue;
-    if (!find_tet_with_edge(mesh, e.edge[0], e.edge[1]).valid()) continue;
+    const bool known = mesh.has_vertex(e.seed, e.edge[0]) && mesh.has_vertex(e.seed, e.edge[1]);
+    if (!known && !find_tet_with_edge(mesh, e.edge[0], e.edge[1]).valid()) continue;
+    context.state.begin_operation(typical_star);
     if (!try_collapse(context, marks, e.edge[0], e.edge[1])) try_collapse(context, marks, e.edge[1], e.edge[0]);
   }
 }

@@ -3,8 +3,8 @@
 #include <span>
 #include <utility>
 #include <vector>
-#include "hexfield/field/edge_codes.hpp"
 
+#include "hexfield/field/edge_codes.hpp"
 #include "hexfield/repair/remesh.hpp"
 
 namespace hexfield {
@@ -30,13 +30,15 @@ struct RemeshContext {
   double relative_length(const EdgeKey& e) const;
 };
 
-/// Edges that are still there, with a tet of each, by length: longest (or shortest) first, ties by key.
 struct SizedEdge {
   EdgeKey edge;
   TetId seed;
   double length;
 };
-std::vector<SizedEdge> alive_edges(const RemeshContext& context, std::span<const TetId> tets, bool longest_first);
+/// Edges of these tets with a tet of each, by key.
+std::vector<SizedEdge> sized_edges(const RemeshContext& context, std::span<const TetId> tets);
+/// Longest or shortest first, ties by key. `edges` comes ordered by key.
+void sort_by_length(std::vector<SizedEdge>& edges, bool longest_first);
 
 /// Largest distortion (mesh/quality.hpp) of some tets.
 double worst_distortion(const TetMesh& mesh, std::span<const TetId> tets);

@@ -28,11 +28,13 @@ bool split_improves(const TetMesh& mesh, std::span<const TetId> ring, const Edge
 
 void split_pass(RemeshContext& context, std::span<const TetId> region) {
   RepairState& state = context.state;
-  std::vector<SizedEdge> edges = alive_edges(context, region, true);
+  std::vector<SizedEdge> edges = sized_edges(context, region);
   std::erase_if(edges, [&](const SizedEdge& e) { return e.length < context.options.split_above; });
+  sort_by_length(edges, true);
   for (const SizedEdge& e : edges) {
     const TetId seed = state.mesh.alive(e.seed) ? e.seed : find_tet_with_edge(state.mesh, e.edge[0], e.edge[1]);
     const EdgeRing ring = edge_ring(state.mesh, seed, e.edge[0], e.edge[1]);
+    state.begin_operation(ring.tets.size());
     if (!context.editable(ring.tets) || !split_improves(state.mesh, ring.tets, e.edge)) continue;
     const std::size_t slots = state.mesh.num_tets();
     split_edge(state, e.edge[0], e.edge[1]);

@@ -172,18 +172,24 @@ bool try_swap(RemeshContext& context, const VertexMarks& marks, TetId seed, Vert
   return Swap(context, marks, seed, a, b).run(context);
 }
 
+constexpr std::size_t typical_ring = 6;  // tets at an edge
+
 void swap_pass(RemeshContext& context, std::span<const TetId> region) {
   const TetMesh& mesh = context.state.mesh;
   const VertexMarks marks(context.state);
-  std::vector<SizedEdge> edges = alive_edges(context, region, true);
-  std::vector<char> promising(edges.size(), 0);
+  const std::vector<SizedEdge> edges = sized_edges(context, region);
+  std::vector<char> gains(edges.size(), 0);
   parallel_for(edges.size(), 64, [&](std::size_t begin, std::size_t end) {
+    context.state.begin_operation(typical_ring * (end - begin));
     for (std::size_t i = begin; i < end; ++i)
-      promising[i] = Swap(context, marks, edges[i].seed, edges[i].edge[0], edges[i].edge[1]).plan();
+      gains[i] = Swap(context, marks, edges[i].seed, edges[i].edge[0], edges[i].edge[1]).plan();
   });
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (promising[i] == 0) continue;
-    const auto& [e, old_seed, length] = edges[i];
+  std::vector<SizedEdge> promising;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (gains[i] != 0) promising.push_back(edges[i]);
+  sort_by_length(promising, true);
+  for (const auto& [e, old_seed, length] : promising) {
+    context.state.begin_operation(typical_ring);
     const TetId seed = mesh.alive(old_seed) ? old_seed : find_tet_with_edge(mesh, e[0], e[1]);
     if (seed.valid()) try_swap(context, marks, seed, e[0], e[1]);
   }

@@ -80,7 +80,10 @@ class VertexOptimiser {
     std::atomic<int> moves = 0;
     for (const auto& colour : stars_.colours)
       parallel_for(colour.size(), 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) moves += optimise(colour[i]);
+        for (std::size_t i = begin; i < end; ++i) {
+          state_.begin_operation(stars_.of(colour[i]).size());
+          moves += optimise(colour[i]);
+        }
       });
     return moves;
   }

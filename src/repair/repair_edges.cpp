@@ -52,6 +52,10 @@ bool in_surface(const RepairState& state, const EdgeKey& e) {
                                     [&](HalfFaceId h) { return is_feature_face(state, h); });
 }
 
+bool meets_surface(const RepairState& state, const EdgeKey& e) {
+  return on_feature_face(state, e[0]) || on_feature_face(state, e[1]);
+}
+
 int remove_triangles(RepairState& state) {
   std::set<FaceKey> faces;
   for (const auto& entry : state.codes) {
@@ -83,12 +87,16 @@ EdgeRepairCounts repair_edges(RepairState& state, const EdgeRepairOptions& optio
     const int before = counts.total();
     if (options.triangles) counts.triangles += remove_triangles(state);
     if (options.push) counts.pushed += push_arcs_inside(state);
+    const auto compound = [](const EdgeKey&, EdgeCode code) { return code == compound_code; };
+    if (options.contract) counts.contracted += at_edges(state, edges_where(state, compound), contract_compound_edge);
     if (options.compound) {
-      const auto compound = [](const EdgeKey&, EdgeCode code) { return code == compound_code; };
-      counts.compound += at_edges(state, edges_where(state, compound), repair_compound_edge);
+      std::vector<EdgeKey> edges = edges_where(state, compound);
+      if (!options.compound_inside) std::erase_if(edges, [&](const EdgeKey& e) { return !meets_surface(state, e); });
+      counts.compound += at_edges(state, edges, repair_compound_edge);
     }
     if (options.sectors) counts.sectors += at_edges(state, edges_with_bad_sectors(state), repair_sectors);
     if (options.lift) {
+      counts.lifted += lift_arcs_from_surfaces(state);
       const auto any = [](const EdgeKey&, EdgeCode) { return true; };
       std::vector<EdgeKey> edges = edges_where(state, any);
       std::erase_if(edges, [&](const EdgeKey& e) { return state.features.edges.contains(e) || !in_surface(state, e); });
@@ -100,7 +108,7 @@ EdgeRepairCounts repair_edges(RepairState& state, const EdgeRepairOptions& optio
       };
       counts.index += at_edges(state, edges_where(state, high), lower_index);
     }
-    if (counts.total() == before) break;
+    if (counts.total() == before || state.exhausted()) break;
   }
   return counts;
 }

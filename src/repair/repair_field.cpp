@@ -1,7 +1,7 @@
 #include "hexfield/repair/repair_field.hpp"
 
-#include <array>
-
+#include "hexfield/base/error.hpp"
+#include "hexfield/base/stopwatch.hpp"
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/mesh/edge_table.hpp"
 #include "hexfield/repair/meshability.hpp"
@@ -21,61 +21,66 @@ std::vector<double> mean_edge_lengths(const TetMesh& mesh) {
   return sum;
 }
 
-DefectCounts count_defects(const FieldResult& f) {
-  const Meshability found = check_meshability(FieldView(f.mesh, f.features, f.field, f.codes));
+// Kind of operation in the report.
+constexpr const char* judgement = "judge before and after";
+
+DefectCounts count_defects(const RepairState& f, VerdictMemory& verdicts) {
+  Meshability found = check_meshability(f);
+  verdicts = std::move(found.verdicts);
   DefectCounts counts{found.bad_edges.size(), found.bad_vertices.size(), {}};
   for (const SingularNode& node : singularity_graph(f.mesh, f.features, f.field, f.codes).nodes)
     ++counts.kinds[name(node.kind)];
   return counts;
 }
 
-struct Variation {
-  const char* name;
-  void (*apply)(RepairOptions&);
-};
-
-constexpr std::array<Variation, 4> variations = {{
-    {"default", [](RepairOptions&) {}},
-    {"alignment weight 1", [](RepairOptions& o) { o.alignment_weight = 1; }},
-    {"more iterations before free zipper nodes", [](RepairOptions& o) { o.first_iterations += 8; }},
-    {"alignment weight 100", [](RepairOptions& o) { o.alignment_weight = 100; }},
-}};
-
-const Variation& variation(int attempt) { return variations[static_cast<std::size_t>(attempt) % variations.size()]; }
+std::shared_ptr<RepairWatch> watch_of(const RepairControl& control) {
+  auto watch = std::make_shared<RepairWatch>();
+  watch->stop_requested = control.stop_requested;
+  return watch;
+}
 
 }  // namespace
 
-RepairOptions varied(const RepairOptions& options, int attempt) {
-  RepairOptions changed = options;
-  variation(attempt).apply(changed);
-  return changed;
+// A few milliseconds at most.
+constexpr long work_between_asks = 256;
+
+void RepairWatch::begin(std::size_t tets) {
+  const long before = work.fetch_add(static_cast<long>(tets));
+  const bool ask = tets == 0 || before / work_between_asks != (before + static_cast<long>(tets)) / work_between_asks;
+  if (ask && stop_requested && stop_requested()) throw Error(ExitCode::stopped, "The repair of the field was stopped.");
 }
 
-std::string name_of_variation(int attempt) { return variation(attempt).name; }
-
-RepairIterate start_repair(FieldResult smooth) {
+RepairIterate start_repair(FieldResult smooth, const RepairControl& control) {
   RepairIterate start;
-  start.report.before = count_defects(smooth);
+  const Clock::time_point begin = Clock::now();
   start.state.target_length = mean_edge_lengths(smooth.mesh);
   static_cast<FieldResult&>(start.state) = std::move(smooth);
+  start.state.watch = watch_of(control);
+  start.report.before = count_defects(start.state, start.verdicts);
+  start.report.seconds[judgement] += seconds_since(begin);
   return start;
 }
 
 RepairResult repair_field(RepairIterate iterate, const FieldResult& input, const RepairOptions& options,
                           const RepairControl& control) {
+  iterate.state.watch = watch_of(control);
+  iterate.state.watch->work = iterate.report.work;
+  iterate.state.watch->budget = options.work_per_tet * static_cast<long>(input.mesh.num_tets());
   Schedule schedule(iterate, input, options, control);
   const int last = options.first_iterations + options.second_rounds * options.inner_iterations;
-  while (iterate.report.iterations < last) {
+  while (iterate.report.iterations < last && !iterate.state.exhausted()) {
     const int k = iterate.report.iterations - options.first_iterations;
     const bool round = k >= 0 && k % options.inner_iterations == 0;
     if (round && (schedule.meshable() || iterate.stale_rounds >= options.patience)) break;
-    if (k < 0 || round) schedule.repair_edges_and_vertices();
+    if (k < 0 || round) schedule.repair_edges_and_vertices(k < 0);
     if (round) schedule.repair_zippers();
     schedule.relocate();
     schedule.end_iteration();
   }
   schedule.finish();
-  iterate.report.after = count_defects(iterate.state);
+  const Clock::time_point begin = Clock::now();
+  iterate.report.after = count_defects(iterate.state, iterate.verdicts);
+  iterate.report.seconds[judgement] += seconds_since(begin);
   return {std::move(static_cast<FieldResult&>(iterate.state)), std::move(iterate.report)};
 }
 

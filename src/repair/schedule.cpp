@@ -17,6 +17,7 @@
 #include "hexfield/repair/constrained_zippers.hpp"
 #include "hexfield/repair/edge_repair.hpp"
 #include "hexfield/repair/free_ends.hpp"
+#include "hexfield/repair/merge_arcs.hpp"
 #include "hexfield/repair/meshability.hpp"
 #include "hexfield/repair/neighbourhood_loop.hpp"
 #include "hexfield/repair/relocation.hpp"
@@ -31,6 +32,7 @@ namespace {
 constexpr int isolation_passes = 4;
 constexpr int relocation_sweeps = 50;  // spec-lmff section 4
 constexpr int remesh_sweeps = 10;
+constexpr std::size_t work_of_sweeps = 3;  // what they cost, in RepairWatch::work per tet
 constexpr int relocation_rings = 3;
 constexpr int final_sweeps = 100;
 
@@ -51,16 +53,27 @@ std::vector<VertexId> vertices_of(const std::vector<EdgeKey>& edges) {
   return vertices;
 }
 
-// Vertices of special edges that need repair, those with few singular edges first (spec-lmff section 5.5).
-std::vector<Place> vertices_to_repair(const RepairState& state) {
+// Vertices of special edges that need repair, those with few singular edges first (spec-lmff section 5.5). Zipper nodes
+// on curves wait for a partner: alone they would leave through whatever surface is near. `memory` gives the verdicts of
+// one-rings that are as they were and takes all there are now.
+std::vector<Place> vertices_to_repair(const RepairState& state, VerdictMemory& memory) {
   const std::vector<VertexId> all = vertices_of(special_edges(state));
-  std::vector<char> bad(all.size(), 0);
+  VertexRepairOptions options;
+  options.map.memory = &memory;
+  std::vector<VertexNeed> needs(all.size());
   parallel_for(all.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) bad[i] = needs_repair(state, all[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      needs[i] = need_of_repair(state, all[i], options);
+      if (needs[i].repair && is_zipper_on_curve(state, all[i])) needs[i].repair = false;
+    }
   });
+  VerdictMemory now;
   std::vector<std::pair<std::size_t, VertexId>> order;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (bad[i]) order.emplace_back(singular_edges_at(state, all[i]).size(), all[i]);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (needs[i].key) now.note(*needs[i].key, needs[i].verdict);
+    if (needs[i].repair) order.emplace_back(singular_edges_at(state, all[i]).size(), all[i]);
+  }
+  memory = std::move(now);
   std::sort(order.begin(), order.end());
   std::vector<Place> places;
   for (const auto& entry : order) places.push_back({{entry.second}, 1});
@@ -88,8 +101,7 @@ Schedule::Schedule(RepairIterate& iterate, const FieldResult& input, const Repai
 template <class Work>
 void Schedule::timed(const std::string& kind, const Work& work) {
   // Whoever goes on repeats this iteration: the iterate of the last one is the newest that can be taken up.
-  if (control_.stop_requested && control_.stop_requested())
-    throw Error(ExitCode::stopped, "The repair of the field was stopped.");
+  state_.begin_operation(0);
   if (control_.progress) control_.progress(kind, -1);
   const Clock::time_point start = Clock::now();
   const long done = work();
@@ -107,12 +119,18 @@ void Schedule::isolate() {
   compact(state_);
 }
 
-void Schedule::repair_edges_and_vertices() {
-  timed("repair edges", [&] { return repair_edges(state_).total(); });
+void Schedule::repair_edges_and_vertices(bool first_stage) {
+  timed("repair edges", [&] {
+    EdgeRepairOptions options;
+    options.compound_inside = !first_stage;
+    return repair_edges(state_, options).total();
+  });
   timed("repair vertices", [&] {
-    const std::vector<Place> places = vertices_to_repair(state_);
-    const auto commits = for_places(state_, places, [](Neighbourhood& copy, std::span<const VertexId> seeds) {
-      return repair_vertex(copy.local, seeds[0]);
+    const std::vector<Place> places = vertices_to_repair(state_, iterate_.verdicts);
+    VertexRepairOptions options;
+    options.map.memory = &iterate_.verdicts;
+    const auto commits = for_places(state_, places, [&](Neighbourhood& copy, std::span<const VertexId> seeds) {
+      return repair_vertex(copy.local, seeds[0], options);
     });
     return std::count(commits.begin(), commits.end(), 1);
   });
@@ -139,8 +157,9 @@ void Schedule::relocate() {
     return relocate_singularities(state_, surface_, curves_, options).vertices;
   });
   timed("smooth near arcs", [&] {
-    smooth_to_features(state_, tets_around(state_.mesh, vertices_of(singular_edges(state_)), relocation_rings),
-                       relocation_sweeps);
+    const std::vector<TetId> near = tets_around(state_.mesh, vertices_of(singular_edges(state_)), relocation_rings);
+    state_.begin_operation(work_of_sweeps * near.size());
+    smooth_to_features(state_, near, relocation_sweeps);
     update_codes(state_, singular_edges(state_));
     return 0;
   });
@@ -152,7 +171,11 @@ bool Schedule::meshable() {
     defects = unrefuted_defects(state_).size();
     if (defects > 0) return 0;
     const std::vector<EdgeKey> edges = special_edges(state_);
-    const Meshability found = check_meshability(state_, edges, vertices_of(edges));
+    const VerdictMemory maps = iterate_.verdicts.found();
+    VertexMapOptions options;
+    options.memory = &maps;
+    Meshability found = check_meshability(state_, edges, vertices_of(edges), options);
+    iterate_.verdicts = std::move(found.verdicts);
     defects = found.bad_edges.size() + found.bad_vertices.size();
     return 0;
   });
@@ -183,6 +206,7 @@ void Schedule::free_ends() {
 
 void Schedule::finish() {
   free_ends();
+  timed("merge crossing arcs", [&] { return merge_crossing_arcs(state_); });
   timed("separate arcs and features", [&] {
     unify_codes(state_.mesh, state_.field, state_.codes);
     isolate();
@@ -215,9 +239,11 @@ void Schedule::align_everywhere() {
 void Schedule::end_iteration() {
   compact(state_);
   ++iterate_.report.iterations;
+  iterate_.report.work = state_.watch->work;
+  // Asked first, so that the checkpoint is written when the run ends here.
   const bool stop = control_.stop_requested && control_.stop_requested();
   if (control_.checkpoint) control_.checkpoint(iterate_);
-  if (stop) throw Error(ExitCode::stopped, "The repair of the field was stopped.");
+  if (stop) state_.begin_operation(0);
 }
 
 }  // namespace hexfield

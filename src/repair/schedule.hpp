@@ -14,7 +14,7 @@ class Schedule {
            const RepairControl& control);
 
   /// Edges, nodes and zipper nodes on features (Stage I).
-  void repair_edges_and_vertices();
+  void repair_edges_and_vertices(bool first_stage);
   /// Free zipper nodes (Stage II).
   void repair_zippers();
   /// The mesh near arcs gets better, arcs move to where the field wants them, and the field near them follows the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "hexfield/base/parallel.hpp"
 #include "hexfield/field/edge_codes.hpp"
 #include "hexfield/field/matchings.hpp"
 #include "hexfield/field/singularity_graph.hpp"
@@ -181,16 +182,29 @@ EdgeRing ring_of(const TetMesh& mesh, VertexId a, VertexId b) {
 }
 
 void update_codes(RepairState& state, std::span<const EdgeKey> edges) {
-  for (const EdgeKey& e : edges) {
-    const TetId seed = find_tet_with_edge(state.mesh, e[0], e[1]);
-    EdgeCode code = 0;
-    if (seed.valid())
-      code = edge_code(state.mesh, state.features, state.field, edge_ring(state.mesh, seed, e[0], e[1]), e[0], e[1]);
-    if (code == 0)
-      state.codes.erase(e);
+  std::vector<std::pair<EdgeKey, TetId>> with_tets(edges.size());
+  parallel_for(edges.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      with_tets[i] = {edges[i], find_tet_with_edge(state.mesh, edges[i][0], edges[i][1])};
+  });
+  update_codes(state, with_tets);
+}
+
+void update_codes(RepairState& state, std::span<const std::pair<EdgeKey, TetId>> edges) {
+  std::vector<EdgeCode> codes(edges.size(), 0);
+  parallel_for(edges.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [e, seed] = edges[i];
+      if (seed.valid())
+        codes[i] =
+            edge_code(state.mesh, state.features, state.field, edge_ring(state.mesh, seed, e[0], e[1]), e[0], e[1]);
+    }
+  });
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (codes[i] == 0)
+      state.codes.erase(edges[i].first);
     else
-      state.codes[e] = code;
-  }
+      state.codes[edges[i].first] = codes[i];
 }
 
 namespace {

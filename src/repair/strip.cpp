@@ -103,7 +103,8 @@ class SpokeSearch {
     if (is_special(state_, edge_key(path(s.first), s.second))) return false;
     bool in_feature = !ring.closed;
     for (HalfFaceId h : ring.crossings) in_feature = in_feature || is_feature_face(state_, h);
-    if (!in_feature || s.first >= request_.held) return true;
+    const bool held = s.first < request_.held || s.first + request_.held_last >= request_.path.size();
+    if (!in_feature || !held) return true;
     return last && std::ranges::find(request_.exits, s.second) != request_.exits.end();
   }
 
@@ -155,7 +156,27 @@ void add_face(Strip& strip, VertexId a, VertexId b, VertexId c) {
   if (a != b && b != c && a != c) strip.faces.push_back(face_key(a, b, c));
 }
 
+// In a feature face, or special itself: no spoke for a vertex on a feature.
+bool is_held(const RepairState& state, VertexId a, VertexId b) {
+  if (is_special(state, edge_key(a, b))) return true;
+  const EdgeRing ring = ring_of(state.mesh, a, b);
+  return !ring.closed || std::ranges::any_of(ring.crossings, [&](HalfFaceId h) { return is_feature_face(state, h); });
+}
+
 }  // namespace
+
+void free_spokes(RepairState& state, VertexId v) {
+  std::set<FaceKey> narrow;
+  for (TetId t : vertex_star(state.mesh, v))
+    for (int f = 0; f < 4; ++f) {
+      const HalfFaceId h(t, f);
+      if (state.mesh.vertices(t)[static_cast<std::size_t>(f)] == v || is_feature_face(state, h)) continue;
+      const auto corners = state.mesh.face_vertices(h);
+      if (std::ranges::all_of(corners, [&](VertexId w) { return w == v || is_held(state, v, w); }))
+        narrow.insert(state.mesh.key(h));
+    }
+  for (const FaceKey& face : narrow) split_face(state, find_half_face(state.mesh, face));
+}
 
 std::vector<VertexId> insert_path(RepairState& state, std::span<const FaceKey> faces, const Vec3& from,
                                   const std::optional<Vec3>& to) {

@@ -38,6 +38,7 @@ class UnzipSearch {
       const auto [distance, t] = *queue_.begin();
       queue_.erase(queue_.begin());
       if (distance > limit) break;
+      state_.begin_operation(1);
       if (const UnzipPartner* partner = partner_at(t)) return path_to(t, distance, {}, *partner);
       if (!boundary)
         if (const HalfFaceId exit = exit_at(t); exit.valid()) {
@@ -116,7 +117,8 @@ class UnzipSearch {
     const auto [first, last] = partners_.equal_range(t);
     for (auto it = first; it != last; ++it)
       if (it->second.u == label_in(r) && it->second.node != seeds_[r.seed].origin &&
-          it->second.edge != seeds_[r.seed].edge && !consumed_.contains(it->second.node))
+          (it->second.edge == EdgeKey{} || it->second.edge != seeds_[r.seed].edge) &&
+          !consumed_.contains(it->second.node))
         return &it->second;
     return nullptr;
   }

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <optional>
 
+#include "edge_meshability.hpp"
 #include "hexfield/field/edge_codes.hpp"
-#include "hexfield/repair/meshability.hpp"
 #include "link_map.hpp"
 
 namespace hexfield {
@@ -31,7 +31,7 @@ class LinkBuilder {
 
  private:
   bool is_feature(HalfFaceId h) const {
-    return view_.mesh.is_boundary(h) || view_.features.faces.count(view_.mesh.key(h)) != 0;
+    return view_.mesh.is_boundary(h) || view_.features.faces.contains(view_.mesh.key(h));
   }
 
   void collect_ends() {
@@ -40,6 +40,14 @@ class LinkBuilder {
         if (w != v_) ends_.push_back(w);
     std::sort(ends_.begin(), ends_.end());
     ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
+    seeds_.resize(ends_.size());
+    for (auto t = star_.rbegin(); t != star_.rend(); ++t)
+      for (VertexId w : view_.mesh.vertices(*t))
+        if (w != v_) seeds_[end_number(w)] = *t;
+  }
+
+  std::size_t end_number(VertexId w) const {
+    return static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), w) - ends_.begin());
   }
 
   int triangle_of(TetId t) const {
@@ -54,7 +62,7 @@ class LinkBuilder {
       triangle.frame = view_.field.frames[t.index()];
       const auto corners = mesh.face_vertices(HalfFaceId(t, mesh.local_index(t, v_)));
       for (std::size_t k = 0; k < 3; ++k) {
-        triangle.vertex[k] = static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), corners[k]) - ends_.begin());
+        triangle.vertex[k] = static_cast<int>(end_number(corners[k]));
         const HalfFaceId side(t, mesh.local_index(t, corners[next(next(k))]));
         if (is_feature(side))
           triangle.normal[k] = closest_label(view_.field.frames[t.index()], outward_normal(mesh, side));
@@ -92,7 +100,7 @@ class LinkBuilder {
     return free;
   }
 
-  bool add_sectors(const EdgeRing& ring, std::size_t w, EdgeCode code) {
+  void add_sectors(const EdgeRing& ring, std::span<const Sector> between, std::size_t w, EdgeCode code) {
     auto corners_of = [&](const std::vector<TetId>& tets) {
       std::vector<int> corners;
       for (TetId t : tets) {
@@ -101,13 +109,8 @@ class LinkBuilder {
       }
       return corners;
     };
-    const auto between = sectors(view_.mesh, view_.features, view_.field, ring, v_, ends_[w]);
     if (between.empty()) link_.sectors.push_back({corners_of(ring.tets), 4 + code});
-    for (const Sector& s : between) {
-      if (s.quads == undetermined_code || s.quads < 1) return false;
-      link_.sectors.push_back({corners_of(s.tets), s.quads});
-    }
-    return true;
+    for (const Sector& s : between) link_.sectors.push_back({corners_of(s.tets), s.quads});
   }
 
   Vec3 seen_direction(const EdgeRing& ring, std::size_t w, const Vec3& direction) const {
@@ -123,10 +126,11 @@ class LinkBuilder {
   bool add_vertex(std::size_t w) {
     const TetMesh& mesh = view_.mesh;
     const EdgeKey key = edge_key(v_, ends_[w]);
-    if (!edge_meshable(view_, key)) return false;
+    const EdgeRing ring = edge_ring(mesh, seeds_[w], v_, ends_[w]);
+    const auto between = sectors(mesh, view_.features, view_.field, ring, v_, ends_[w]);
+    if (!edge_meshable(view_, key, ring, between)) return false;
     const auto found = view_.codes.find(key);
     const EdgeCode code = found == view_.codes.end() ? 0 : found->second;
-    const EdgeRing ring = edge_ring(mesh, find_tet_with_edge(mesh, v_, ends_[w]), v_, ends_[w]);
     Rotation to_tet = octahedral::identity;
     for (std::size_t i = 0; i < ring.tets.size(); ++i) {
       const auto triangle = static_cast<std::size_t>(triangle_of(ring.tets[i]));
@@ -139,7 +143,8 @@ class LinkBuilder {
     vertex.free = free_coordinates(ring, w);
     if (vertex.free_count() == 0) return false;
     if (code != 0 || view_.features.edges.count(key) != 0) put_on_axis(ring, w, code);
-    return add_sectors(ring, w, code);
+    add_sectors(ring, between, w, code);
+    return true;
   }
 
   // Special edges lie on one coordinate axis: the free one that the field sees them along; arcs inside leave along
@@ -162,24 +167,11 @@ class LinkBuilder {
   VertexId v_;
   std::vector<TetId> star_;
   std::vector<VertexId> ends_;
+  std::vector<TetId> seeds_;  // per end: the first tet of the star that has it
   Link link_;
 };
 
-// Around an inner vertex all charts are one unless a special edge or a feature face is there.
-bool trivially_regular(const FieldView& view, VertexId v) {
-  for (TetId t : vertex_star(view.mesh, v)) {
-    const auto& corners = view.mesh.vertices(t);
-    for (int i = 0; i < 4; ++i) {
-      const VertexId w = corners[static_cast<std::size_t>(i)];
-      if (w == v) continue;
-      const HalfFaceId h(t, i);
-      if (view.mesh.is_boundary(h) || view.features.faces.count(view.mesh.key(h)) != 0) return false;
-      const EdgeKey key = edge_key(v, w);
-      if (view.codes.count(key) != 0 || view.features.edges.count(key) != 0) return false;
-    }
-  }
-  return true;
-}
+constexpr std::size_t work_of_untangling = 200;  // a drawing by sweeps and Newton steps, against a look at each tet
 
 std::vector<MappedTet> mapped(const Link& link, const std::vector<Vec3>& images) {
   std::vector<MappedTet> map;
@@ -197,11 +189,10 @@ std::vector<MappedTet> mapped(const Link& link, const std::vector<Vec3>& images)
 
 }  // namespace
 
-VertexVerdict vertex_verdict(const FieldView& view, VertexId v, const VertexMapOptions& options,
-                             std::vector<MappedTet>* map) {
-  std::optional<Link> built = LinkBuilder(view, v).build();
-  if (!built || !admits_area(*built)) return VertexVerdict::not_meshable;
-  Link plain = *std::move(built);
+namespace {
+
+VertexVerdict search_map(Link plain, const VertexMapOptions& options, std::vector<MappedTet>* map, RepairWatch* watch) {
+  if (!admits_area(plain)) return VertexVerdict::not_meshable;
   guess_images(plain);
   if (is_drawing(plain, starts(plain), options.smallest_det)) {
     if (map != nullptr) *map = mapped(plain, starts(plain));
@@ -213,6 +204,7 @@ VertexVerdict vertex_verdict(const FieldView& view, VertexId v, const VertexMapO
     if (map != nullptr) *map = mapped(harmonic, starts(harmonic));
     return VertexVerdict::meshable;
   }
+  if (watch != nullptr) watch->begin(work_of_untangling * plain.triangles.size());
   std::vector<Link> guesses = {plain, plain};
   align_frames(guesses[0], options.sweeps);
   guess_images(guesses[0]);
@@ -231,8 +223,37 @@ VertexVerdict vertex_verdict(const FieldView& view, VertexId v, const VertexMapO
   return VertexVerdict::not_meshable;
 }
 
+}  // namespace
+
+VertexVerdict vertex_verdict(const FieldView& view, VertexId v, const VertexMapOptions& options,
+                             std::vector<MappedTet>* map, std::optional<VerdictMemory::Key>* key) {
+  if (view.watch != nullptr) view.watch->begin(vertex_star(view.mesh, v).size());
+  std::optional<Link> link = LinkBuilder(view, v).build();
+  if (!link) return VertexVerdict::not_meshable;
+  if (key == nullptr && options.memory == nullptr) return search_map(*std::move(link), options, map, view.watch);
+  const VerdictMemory::Key hash = structure_hash(*link);
+  if (key != nullptr) *key = hash;
+  const auto known = options.memory != nullptr ? options.memory->find(hash) : std::nullopt;
+  return known ? *known : search_map(*std::move(link), options, map, view.watch);
+}
+
+bool is_trivially_regular(const FieldView& view, VertexId v) {
+  for (TetId t : vertex_star(view.mesh, v)) {
+    const auto& corners = view.mesh.vertices(t);
+    for (int i = 0; i < 4; ++i) {
+      const VertexId w = corners[static_cast<std::size_t>(i)];
+      if (w == v) continue;
+      const HalfFaceId h(t, i);
+      if (view.mesh.is_boundary(h) || view.features.faces.count(view.mesh.key(h)) != 0) return false;
+      const EdgeKey key = edge_key(v, w);
+      if (view.codes.count(key) != 0 || view.features.edges.count(key) != 0) return false;
+    }
+  }
+  return true;
+}
+
 bool vertex_meshable(const FieldView& view, VertexId v, const VertexMapOptions& options) {
-  return trivially_regular(view, v) || vertex_verdict(view, v, options) != VertexVerdict::not_meshable;
+  return is_trivially_regular(view, v) || vertex_verdict(view, v, options) != VertexVerdict::not_meshable;
 }
 
 }  // namespace hexfield

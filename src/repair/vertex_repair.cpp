@@ -34,10 +34,14 @@ bool repair_step_by_step(RepairState& local, VertexId v, const VertexRepairOptio
     const VertexScore before = score_of(local, v, near);
     if (round > 0 && !before.bad) return true;
     const bool zipper = kind_of(local, v) == NodeKind::zipper;
-    const VertexAccept accept = [&](RepairState& trial) { return better(score_of(trial, v, near), before, zipper); };
+    const VertexAccept accept = [&](RepairState& trial) {
+      trial.begin_operation(work_of_judging * trial.mesh.num_tets());
+      return better(score_of(trial, v, near), before, zipper);
+    };
     bool success = false;
     for (const VertexOperation& operation : vertex_operations(local, v, options.reversals)) {
       RepairState trial = local;
+      trial.begin_operation(trial.mesh.num_tets());
       if (!operation(trial, v, accept)) continue;
       local = std::move(trial);
       success = true;
@@ -50,12 +54,16 @@ bool repair_step_by_step(RepairState& local, VertexId v, const VertexRepairOptio
 
 }  // namespace
 
-bool needs_repair(const RepairState& state, VertexId v, const VertexRepairOptions& options) {
+VertexNeed need_of_repair(const RepairState& state, VertexId v, const VertexRepairOptions& options) {
   std::vector<EdgeKey> singular = singular_edges_at(state, v);
   for (const EdgeKey& e : singular)
-    if (state.codes.at(e) == compound_code) return false;
-  if (!singular.empty() && singular.size() <= 4 && !counts_are_good(state, v)) return true;
-  return !vertex_meshable(state, v, options.map);
+    if (state.codes.at(e) == compound_code) return {};
+  if (!singular.empty() && singular.size() <= 4 && !counts_are_good(state, v)) return {true, {}, {}};
+  if (is_trivially_regular(state, v)) return {};
+  VertexNeed need;
+  need.verdict = vertex_verdict(state, v, options.map, nullptr, &need.key);
+  need.repair = need.verdict == VertexVerdict::not_meshable;
+  return need;
 }
 
 bool repair_vertex(RepairState& local, VertexId v, const VertexRepairOptions& options) {

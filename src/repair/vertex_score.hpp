@@ -15,6 +15,9 @@ struct Near {
 };
 Near near_of(const TetMesh& mesh, VertexId v);
 
+/// Of a neighbourhood after an operation, per tet of it, in RepairWatch::work.
+inline constexpr std::size_t work_of_judging = 3;
+
 /// What an operation must make less: near vertices that no hex mesh has by counts of codes, parabolic sectors of the
 /// centre, and edges there. Zipper nodes elsewhere may appear: they are resolved by unzipping. But an arc may leave a
 /// feature curve beside it only where the curve ends: in the middle it would have to be unzipped both ways.

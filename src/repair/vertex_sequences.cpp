@@ -74,6 +74,7 @@ class Sequences {
     open_.erase(best);
     for (const VertexOperation& operation : sequence_operations(from.state, v_)) {
       RepairState trial = from.state;
+      trial.begin_operation(trial.mesh.num_tets());
       operation(trial, v_, [&](RepairState& state) {
         consider(state, from.steps + 1);
         return found_;
@@ -83,6 +84,7 @@ class Sequences {
   }
 
   void consider(RepairState& state, int steps) {
+    state.begin_operation(work_of_judging * state.mesh.num_tets());
     const Signature signature = signature_of(state, v_);
     if (!seen_.insert(signature).second) return;
     VertexScore score = score_near(state, v_, near_);

@@ -1,10 +1,13 @@
 #include "hexfield/repair/zipper_nodes.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 #include <optional>
 
 #include "hexfield/base/parallel.hpp"
 #include "hexfield/field/edge_codes.hpp"
+#include "hexfield/repair/free_ends.hpp"
 #include "hexfield/repair/neighbourhood.hpp"
 #include "hexfield/repair/state_ops.hpp"
 #include "hexfield/repair/zipping.hpp"
@@ -65,6 +68,14 @@ bool path_is_regular(const RepairState& state, const std::vector<VertexId>& path
   return true;
 }
 
+void hold_ends(RepairState& state, const UnzipPath& path, StripRequest& request) {
+  if (is_zipper_on_curve(state, path.seed.origin)) request.held = 1;
+  if (path.partner && request.path.back() == path.partner->node && is_zipper_on_curve(state, path.partner->node))
+    request.held_last = 1;
+  if (request.held > 0) free_spokes(state, request.path.front());
+  if (request.held_last > 0) free_spokes(state, request.path.back());
+}
+
 }  // namespace
 
 std::vector<UnzipSeed> unzip_seeds(const RepairState& state, const FreeZipper& zipper) {
@@ -115,6 +126,7 @@ bool unzip(RepairState& state, const UnzipPath& path, const ZipperOptions& optio
     request.end = ends->second;
   }
   if (!path_is_regular(state, request.path)) return false;
+  hold_ends(state, path, request);
   const auto strip = build_strip(state, request);
   if (!strip) return false;
   ZipOptions zip;
@@ -177,6 +189,17 @@ bool unzip_on_copy(RepairState& state, const UnzipPath& path, const ZipperOption
   return true;
 }
 
+// Pairs that lie nearest to each other come first, so that none takes the partner of another; the rest as selected.
+std::vector<std::size_t> partners_first(const std::vector<std::optional<UnzipPath>>& paths) {
+  std::vector<std::size_t> order(paths.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t i) {
+    return paths[i] && paths[i]->partner ? paths[i]->distance : std::numeric_limits<double>::infinity();
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  return order;
+}
+
 }  // namespace
 
 int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
@@ -190,7 +213,8 @@ int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options) {
       paths[i] = find_unzip_path(state, unzip_seeds(state, zippers[i]), partners, blocked, consumed, options.search);
   });
   int unzipped = 0;
-  for (std::size_t i = 0; i < zippers.size() && unzipped < options.cap; ++i) {
+  for (std::size_t i : partners_first(paths)) {
+    if (unzipped >= options.cap) break;
     if (consumed.contains(zippers[i].node) || !is_free_zipper(state, zippers[i].node)) continue;
     if (paths[i] && !untouched(state, *paths[i], consumed))
       paths[i] =

@@ -7,6 +7,7 @@
 
 #include "hexfield/field/edge_codes.hpp"
 #include "hexfield/field/singularity_graph.hpp"
+#include "hexfield/repair/free_ends.hpp"
 #include "hexfield/repair/state_ops.hpp"
 
 namespace hexfield {
@@ -132,6 +133,7 @@ std::vector<FlowChain> flow_chains(const RepairState& state) {
 }
 
 bool is_free_zipper(const RepairState& state, VertexId v) {
+  if (is_zipper_on_curve(state, v)) return true;
   const auto edges = singular_edges_at(state, v);
   if (edges.size() == 2)
     return std::abs(code_of(state, edges[0])) == 1 && code_of(state, edges[0]) == -code_of(state, edges[1]) &&
@@ -146,6 +148,7 @@ FreeZipper free_zipper_at(const RepairState& state, VertexId v) {
   FreeZipper z;
   z.node = v;
   z.edges = singular_edges_at(state, v);
+  std::erase_if(z.edges, [&](const EdgeKey& e) { return state.features.edges.contains(e); });
   if (z.edges.size() == 2 && code_of(state, z.edges[0]) > 0) std::swap(z.edges[0], z.edges[1]);
   return z;
 }

@@ -45,6 +45,12 @@ Rotation virtual_closure(const RepairState& state, const EdgeRing& ring, VertexI
 
 bool is_half_turn(Rotation r) { return r != octahedral::identity && octahedral::product(r, r) == octahedral::identity; }
 
+int num_empty(const RepairState& state, const EdgeRing& ring, const EdgeKey& edge) {
+  int empty = 0;
+  for (const Sector& s : sectors(state.mesh, state.features, state.field, ring, edge[0], edge[1])) empty += s.quads < 1;
+  return empty;
+}
+
 // The matchings of a patch while they are found one after the other.
 class Zipping {
  public:
@@ -56,33 +62,35 @@ class Zipping {
       for (const EdgeKey& e : edges_of_face(f)) edges_.push_back(e);
     std::sort(edges_.begin(), edges_.end());
     edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    for (const EdgeKey& e : edges_) rings_.push_back(ring_of(state.mesh, e[0], e[1]));
+    for (const EdgeRing& ring : rings_) before_.push_back(monodromy(state.field, ring));
   }
 
   bool solve(Rotation target) {
     if (!determine(patch_.start, target)) return false;
     for (std::size_t i = 0; i < queue_.size(); ++i)
       for (const EdgeKey& e : edges_of_face(queue_[i]))
-        if (!fixed_.contains(e) && ring_of(state_.mesh, e[0], e[1]).closed) determine(e, octahedral::identity);
+        if (!fixed_.contains(e) && ring(e).closed) determine(e, octahedral::identity);
     return unknown_.empty();
   }
 
-  bool admissible(const std::map<EdgeKey, Rotation>& before, bool allow_half_turns) const {
-    for (const EdgeKey& e : edges_) {
-      const EdgeRing ring = ring_of(state_.mesh, e[0], e[1]);
-      if (!ring.closed) continue;
-      const Rotation m = monodromy(state_.field, ring);
-      if (!fixed_.contains(e) && m != octahedral::identity) return false;
-      const Rotation old = before.at(e);
+  bool admissible(bool allow_half_turns) const {
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      if (!rings_[i].closed) continue;
+      const Rotation m = monodromy(state_.field, rings_[i]);
+      if (!fixed_.contains(edges_[i]) && m != octahedral::identity) return false;
+      const Rotation old = before_[i];
       if (octahedral::is_compound(m) && !octahedral::is_compound(old)) return false;
       if (!allow_half_turns && octahedral::is_axial(m) && is_half_turn(m) && !is_half_turn(old)) return false;
     }
     return true;
   }
 
-  std::map<EdgeKey, Rotation> monodromies() const {
-    std::map<EdgeKey, Rotation> found;
-    for (const EdgeKey& e : edges_) found[e] = monodromy(state_.field, ring_of(state_.mesh, e[0], e[1]));
-    return found;
+  // Sectors without quads at every edge of Z.
+  std::vector<int> empty_sectors() const {
+    std::vector<int> empty;
+    for (std::size_t i = 0; i < edges_.size(); ++i) empty.push_back(num_empty(state_, rings_[i], edges_[i]));
+    return empty;
   }
 
   const std::vector<EdgeKey>& edges() const { return edges_; }
@@ -92,9 +100,13 @@ class Zipping {
     return {edge_key(f[0], f[1]), edge_key(f[0], f[2]), edge_key(f[1], f[2])};
   }
 
+  const EdgeRing& ring(const EdgeKey& e) const {
+    return rings_[static_cast<std::size_t>(std::lower_bound(edges_.begin(), edges_.end(), e) - edges_.begin())];
+  }
+
   // Gives the one unknown face at e the matching that makes the monodromy of e the target.
   bool determine(const EdgeKey& e, Rotation target) {
-    const EdgeRing ring = ring_of(state_.mesh, e[0], e[1]);
+    const EdgeRing& ring = this->ring(e);
     std::size_t place = ring.crossings.size();
     for (std::size_t k = 0; k < ring.crossings.size(); ++k) {
       if (!unknown_.contains(state_.mesh.key(ring.crossings[k]))) continue;
@@ -122,16 +134,20 @@ class Zipping {
   const ZipPatch& patch_;
   std::set<FaceKey> unknown_;
   std::set<EdgeKey> fixed_;
-  std::vector<EdgeKey> edges_;
+  std::vector<EdgeKey> edges_;  // of Z, ascending; with their rings and the monodromies at first
+  std::vector<EdgeRing> rings_;
+  std::vector<Rotation> before_;
   std::vector<FaceKey> queue_;
 };
 
 // Codes after a change of the field: of the edges of Z anew; other singular edges keep the sign they have, since
 // their monodromy is the same; regular ones are looked at because an index can jump by whole turns.
 void update_codes_near(RepairState& state, const FieldSnapshot& before, const std::vector<EdgeKey>& edges_of_z) {
-  std::vector<EdgeKey> changed;
-  for (const EdgeKey& e : before.edges())
-    if (before.code(e) == 0 || std::binary_search(edges_of_z.begin(), edges_of_z.end(), e)) changed.push_back(e);
+  std::vector<std::pair<EdgeKey, TetId>> changed = edges_with_tets(state.mesh, before.tets());
+  std::erase_if(changed, [&](const auto& entry) {
+    const EdgeKey& e = entry.first;
+    return before.code(e) != 0 && !std::binary_search(edges_of_z.begin(), edges_of_z.end(), e);
+  });
   update_codes(state, changed);
 }
 
@@ -158,10 +174,7 @@ Rotation closed_monodromy(const RepairState& state, const EdgeRing& ring, Vertex
 }
 
 int empty_sectors(const RepairState& state, const EdgeKey& edge) {
-  int empty = 0;
-  const EdgeRing ring = ring_of(state.mesh, edge[0], edge[1]);
-  for (const Sector& s : sectors(state.mesh, state.features, state.field, ring, edge[0], edge[1])) empty += s.quads < 1;
-  return empty;
+  return num_empty(state, ring_of(state.mesh, edge[0], edge[1]), edge);
 }
 
 std::vector<TetId> tets_touching(const TetMesh& mesh, std::span<const FaceKey> faces) {
@@ -176,10 +189,8 @@ std::vector<TetId> tets_touching(const TetMesh& mesh, std::span<const FaceKey> f
 bool zip_patch(RepairState& state, const ZipPatch& patch, Rotation target, const ZipOptions& options) {
   const FieldSnapshot before(state, tets_touching(state.mesh, patch.faces));
   Zipping zipping(state, patch);
-  const auto monodromies = zipping.monodromies();
-  std::vector<int> empty;
-  for (const EdgeKey& e : zipping.edges()) empty.push_back(empty_sectors(state, e));
-  if (!zipping.solve(target) || !zipping.admissible(monodromies, options.allow_half_turns)) {
+  const std::vector<int> empty = zipping.empty_sectors();
+  if (!zipping.solve(target) || !zipping.admissible(options.allow_half_turns)) {
     before.restore(state);
     return false;
   }
@@ -187,8 +198,10 @@ bool zip_patch(RepairState& state, const ZipPatch& patch, Rotation target, const
   smooth(state, before.tets(), options.sweeps);
   update_codes_near(state, before, zipping.edges());
   bool good = !codes_got_worse(state, before, options.allow_half_turns);
-  for (std::size_t i = 0; good && !options.allow_zero_sectors && i < empty.size(); ++i)
-    good = empty_sectors(state, zipping.edges()[i]) <= empty[i];
+  if (good && !options.allow_zero_sectors) {
+    const std::vector<int> now = zipping.empty_sectors();
+    for (std::size_t i = 0; good && i < empty.size(); ++i) good = now[i] <= empty[i];
+  }
   if (!good) before.restore(state);
   return good;
 }

@@ -26,7 +26,7 @@ class Newton {
   Newton(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec y, const NewtonOptions& options)
       : options_(options),
         assembly_(comm, terms, y),
-        solver_(comm, options.preconditioner, options.max_linear_iterations),
+        solver_(comm, options.preconditioner, options.max_linear_iterations, options.interrupted),
         y_(y),
         memory_(options.memory != nullptr ? *options.memory : own_memory_) {
     for (VecHandle* v : {&gradient_, &step_, &trial_}) check_petsc(VecDuplicate(y, v->out()), "VecDuplicate");
@@ -52,6 +52,7 @@ class Newton {
         return finish(NewtonEnd::converged);
       if (result_.iterations >= options_.max_iterations) return finish(NewtonEnd::iteration_limit);
       const double slope = solve_for_step();
+      if (solver_.interrupted()) return finish(NewtonEnd::stopped);
       if (!(slope < 0)) return finish(NewtonEnd::no_descent);
       // Below the second bound the energy, a difference of larger numbers, is only rounding noise.
       if (-0.5 * slope <=
@@ -93,6 +94,7 @@ class Newton {
     const double forcing = direct ? std::max(relative, 1e-12) : std::sqrt(relative);
     const double tolerance = std::min(options_.linear_tolerance, forcing);
     result_.linear_iterations += solver_.solve(assembly_.hessian(), gradient_.get(), step_.get(), tolerance);
+    if (solver_.interrupted()) return 0;
     remember_factor();
     check_petsc(VecScale(step_.get(), -1.0), "VecScale");
     PetscScalar slope = 0;
@@ -140,8 +142,9 @@ NewtonResult minimise(MPI_Comm comm, std::span<const EnergyTerm* const> terms, V
 }
 
 NewtonResult solve_linear(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec y, Preconditioner preconditioner,
-                          int block_size) {
+                          int block_size, const std::function<bool()>& interrupted) {
   NewtonOptions options;
+  options.interrupted = interrupted;
   options.preconditioner = preconditioner;
   options.block_size = block_size;
   // A second step works as iterative refinement against the unshifted gradient.

@@ -206,13 +206,14 @@ TEST(IntegrableFrames, AnInterruptedScheduleIsResumed) {
   const IntegrableOptions options;
   std::vector<double> saved;
   Control control;
-  int asked = 0;
-  control.stop_requested = [&] { return ++asked > 8; };
+  int offers = 0;
+  control.stop_requested = [&] { return offers > 0; };
   control.offer_iterate = [&](const std::string&, const std::function<std::vector<double>()>& gather) {
     saved = gather();
+    ++offers;
   };
   control.restore_iterate = [&](const std::string&) -> std::optional<std::vector<double>> {
-    if (asked == 0) return std::nullopt;
+    if (offers == 0) return std::nullopt;
     return saved;
   };
   IntegrableFrames first(MPI_COMM_WORLD, r.mesh, r.field, r.constraints, r.space, options);
@@ -222,6 +223,40 @@ TEST(IntegrableFrames, AnInterruptedScheduleIsResumed) {
   const auto reports = optimise_integrable_frames(second, MPI_COMM_WORLD, options, control, {});
   EXPECT_LT(reports.size(), 6u);
   EXPECT_LT(reports.back().max_curl, 1e-4);
+}
+
+TEST(IntegrableFrames, AStopIsHeardInTheLinearSolver) {
+  const Setting s = prism();
+  const Setting& r = on_root(MPI_COMM_WORLD, s);
+  int asked = 0;
+  Control control;
+  control.stop_requested = [&] { return ++asked >= 2; };
+  IntegrableFrames frames(MPI_COMM_WORLD, r.mesh, r.field, r.constraints, r.space, {});
+  const std::vector<Mat3> before = frames.gather();
+  const IntegrableStageReport report = frames.run({1e4, 1e4}, 1e-3, control);
+  EXPECT_TRUE(report.stopped);
+  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(report.newton_steps, 0);
+  EXPECT_EQ(frames.gather(), before);
+}
+
+TEST(IntegrableFrames, TheWorkEndsTheSchedule) {
+  const Setting s = prism();
+  const Setting& r = on_root(MPI_COMM_WORLD, s);
+  IntegrableOptions options;
+  options.max_work = 30;
+  IntegrableFrames frames(MPI_COMM_WORLD, r.mesh, r.field, r.constraints, r.space, options);
+  int judged = 0;
+  const auto reports = optimise_integrable_frames(frames, MPI_COMM_WORLD, options, {},
+                                                  [&](std::size_t, IntegrableFrames&, const IntegrableStageReport&) {
+                                                    ++judged;
+                                                    return false;
+                                                  });
+  EXPECT_EQ(reports.size(), static_cast<std::size_t>(judged));
+  EXPECT_TRUE(reports.back().exhausted);
+  EXPECT_LT(reports.size(), options.schedule.size());
+  // A step that was begun is ended.
+  EXPECT_LT(frames.work(), options.max_work + 2 * options.max_linear_iterations + 10);
 }
 
 }  // namespace

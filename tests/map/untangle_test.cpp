@@ -79,10 +79,39 @@ TEST(MakePositive, RightsTetsWhereTheFramesAreFarFromIntegrable) {
   const std::vector<double> start = box.shaken(1.5);
   ASSERT_GT(box.inverted(start), 20u);
   int asked = 0;
-  const std::vector<double> end = make_positive(box.problem, start, frames, monitor, [&](const std::vector<double>& y) {
+  const auto done = [&](const std::vector<double>& y) {
     ++asked;
     return box.inverted(y) == 0;
-  });
+  };
+  const std::vector<double> end = make_positive(box.problem, start, {}, frames, monitor, done);
   EXPECT_EQ(box.inverted(end), 0u);
   EXPECT_GE(asked, 1);
+}
+
+// Integers that are fixed stay, to the bit.
+TEST(MakePositive, KeepsFixedIntegers) {
+  const Box box;
+  const Control silent;
+  SolveMonitor monitor(silent, "test");
+  std::vector<double> start = box.shaken(1.5);
+  std::vector<double> fixed;
+  std::vector<Mat3> frames;
+  if (rank() == 0) {
+    const auto reals = static_cast<std::ptrdiff_t>(box.space.num_reals);
+    // The longest coordinate grows, and the steps of the frames with it.
+    for (auto i = start.begin() + reals; i != start.end(); ++i) *i *= 2;
+    fixed.assign(start.begin() + reals, start.end());
+    frames.assign(box.m.mesh.num_tets(), 0.5 * Mat3::Identity());
+  }
+  int size = static_cast<int>(fixed.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  fixed.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(fixed.data(), size, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  ASSERT_GT(box.inverted(start), 0u);
+  const auto done = [&](const std::vector<double>& y) { return box.inverted(y) == 0; };
+  const std::vector<double> end = make_positive(box.problem, start, fixed, frames, monitor, done);
+  EXPECT_EQ(box.inverted(end), 0u);
+  if (rank() == 0) {
+    EXPECT_TRUE(std::equal(fixed.begin(), fixed.end(), end.begin() + static_cast<std::ptrdiff_t>(box.space.num_reals)));
+  }
 }

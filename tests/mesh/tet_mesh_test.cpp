@@ -45,6 +45,16 @@ TEST(TetMesh, StarsFindEdgesAndFaces) {
   EXPECT_EQ(vertex_star(mesh, VertexId(13)).size(), 24u);  // the centre of 8 cells
   const HalfFaceId h(TetId(5), 2);
   EXPECT_EQ(mesh.key(find_half_face(mesh, mesh.key(h))), mesh.key(h));
+  for (std::size_t i = mesh.num_tets(); i-- > 0;)
+    for (const auto& e : tet_edge_vertices) {
+      const TetId t(i);
+      const VertexId a = mesh.vertices(t)[static_cast<std::size_t>(e[0])];
+      const VertexId b = mesh.vertices(t)[static_cast<std::size_t>(e[1])];
+      std::size_t smallest = 0;
+      while (!mesh.has_vertex(TetId(smallest), a) || !mesh.has_vertex(TetId(smallest), b)) ++smallest;
+      EXPECT_EQ(find_tet_with_edge(mesh, a, b), TetId(smallest));
+      EXPECT_EQ(find_tet_with_edge(mesh, b, a), TetId(smallest));
+    }
   EXPECT_TRUE(find_tet_with_edge(mesh, VertexId(0), VertexId(26)) == TetId());
 }
 

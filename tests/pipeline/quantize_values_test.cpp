@@ -20,6 +20,7 @@ TEST(QuantizeValues, ComeBackBitForBit) {
   result.integers.proven_optimal = true;
   result.wanted = {2.9, 0.2, 0.3};
   result.unknowns = {1, 2, 0.1};
+  result.stretches = {Vec3(0.1, 2, 1.0 / 3), Vec3(1, 1, 1)};
   result.largest_move = 1e-12;
   result.nodes = 8, result.arcs = 12, result.patches = 6, result.blocks = 1, result.euler = 1;
   result.seconds = {{"exact", 0.1 + 0.7}};
@@ -43,6 +44,7 @@ TEST(QuantizeValues, ComeBackBitForBit) {
   EXPECT_TRUE(back.integers.proven_optimal);
   EXPECT_EQ(back.wanted, result.wanted);
   EXPECT_EQ(back.unknowns, result.unknowns);
+  EXPECT_EQ(back.stretches, result.stretches);
   EXPECT_EQ(back.largest_move, result.largest_move);
   EXPECT_EQ(back.nodes, 8);
   EXPECT_EQ(back.arcs, 12);

@@ -20,6 +20,8 @@ TEST(RepairValues, AnIterateComesBackBitForBit) {
   iterate.compound_shrink = 4;
   iterate.stale_rounds = 1;
   iterate.fewest_defects = 7;
+  iterate.verdicts.note(~std::uint64_t{0}, VertexVerdict::not_meshable);
+  iterate.verdicts.note(1, VertexVerdict::meshable_when_split);
   const RepairIterate back = unpack_repair_iterate(pack(iterate));
   EXPECT_EQ(back.state.mesh.tets, iterate.state.mesh.tets);
   EXPECT_EQ(back.state.mesh.opposite, iterate.state.mesh.opposite);
@@ -36,4 +38,5 @@ TEST(RepairValues, AnIterateComesBackBitForBit) {
   EXPECT_EQ(back.compound_shrink, 4);
   EXPECT_EQ(back.stale_rounds, 1);
   EXPECT_EQ(back.fewest_defects, 7);
+  EXPECT_EQ(back.verdicts.all(), iterate.verdicts.all());
 }

@@ -36,6 +36,12 @@ def ranks_of(process):
     return sorted(found)
 
 
+def catches(pid, number):
+    lines = Path(f"/proc/{pid}/status").read_text().splitlines()
+    mask = next(line.split()[1] for line in lines if line.startswith("SigCgt:"))
+    return int(mask, 16) >> (number - 1) & 1 == 1
+
+
 def stop_one_rank(mesh, number):
     out = SCRATCH / f"signal{number}"
     process = program.start(PROGRAM, RANKS, ["run", mesh, "-o", out])
@@ -67,6 +73,20 @@ def time_limit(mesh):
     assert [s["restored"] for s in stages] == [s["name"] not in ("extract", "improve") for s in stages], stages
 
 
+def unheard():
+    """A wish to stop is granted even where the program cannot hear it: here it waits for a pipe without a writer."""
+    pipe, out = SCRATCH / "pipe.vtk", SCRATCH / "unheard"
+    os.mkfifo(pipe)
+    for command in (["run", pipe, "-o", out], ["info", pipe]):
+        process = program.start(PROGRAM, 1, command)
+        wait_for(lambda: any(catches(pid, signal.SIGTERM) for pid in ranks_of(process)))
+        for pid in ranks_of(process):
+            os.kill(pid, signal.SIGTERM)
+        _, err = process.communicate(timeout=60)
+        assert process.returncode == 9, f"{command}: exit code {process.returncode}: {err}"
+        assert "Stopped" in err, err
+
+
 def main():
     shutil.rmtree(SCRATCH, ignore_errors=True)
     SCRATCH.mkdir(parents=True)
@@ -74,6 +94,8 @@ def main():
     for number in (signal.SIGUSR1, signal.SIGTERM):
         stop_one_rank(mesh, number)
     time_limit(mesh)
+    if RANKS == 1:
+        unheard()
     print(f"signals and time limit on {RANKS} ranks: as they must be")
 
 

@@ -80,3 +80,23 @@ TEST(MapQuantizer, IntegersDescribeTheBlocks) {
   // The inner real unknowns do not matter for the volume: the hull and the cut are integer.
   EXPECT_NEAR(parametric_volume(to_corner_map(p.space, x)), static_cast<double>(3 * section), 1e-9);
 }
+
+// In the prism every tet lies in one block: stretched, it has its share of the hexes.
+TEST(MapQuantizer, StretchesTakeTheTetsToTheLengthsOfTheirBlocks) {
+  MappedMesh m = polygon_prism({3, 4, 5}, 2);
+  for (std::int64_t t = 0; t < static_cast<std::int64_t>(m.mesh.num_tets()); ++t)
+    change_chart(m, TetId(t), static_cast<octahedral::Rotation>(t % 24), Vec3(t % 5, 2, -t % 3));
+  const Prepared p = prepare(m, {});
+  const MapQuantizer quantizer(m.mesh, {}, p.exact.codes, p.exact.map);
+  std::vector<std::int64_t> lengths = real_lengths(quantizer.complex());
+  for (const Vec3& s : quantizer.stretches(lengths)) EXPECT_LT((s - Vec3::Ones()).norm(), 1e-12);
+  for (auto& l : lengths) l = l == 4 ? 7 : (l == 2 ? 3 : l);
+  const std::vector<Vec3> stretches = quantizer.stretches(lengths);
+  ASSERT_EQ(stretches.size(), m.mesh.num_tets());
+  double volume = 0;
+  for (std::size_t t = 0; t < stretches.size(); ++t) {
+    const auto& f = p.exact.map.uvw[t];
+    volume += (f[1] - f[0]).cross(f[2] - f[0]).dot(f[3] - f[0]) / 6 * stretches[t].prod();
+  }
+  EXPECT_NEAR(volume, static_cast<double>(count_hexes(quantizer.complex(), lengths)), 1e-9);
+}

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "../../src/quantize/arc_system.hpp"
+#include "../../src/quantize/separation.hpp"
+#include "hexfield/base/parallel.hpp"
 #include "hexfield/quantize/exact_seamless.hpp"
 #include "hexfield/quantize/motorcycle_complex.hpp"
-#include "support/mapped_meshes.hpp"
+#include "support/block_maps.hpp"
 
 using namespace hexfield;
 using namespace hexfield::testing;
@@ -101,4 +103,27 @@ TEST(SeparationSearch, NamesACollapsedDirectionAndUnequalSides) {
   EXPECT_FALSE(check(c, collapsed).empty());
   lengths[0] += 1;
   EXPECT_FALSE(check(c, lengths).empty());
+}
+
+// All arcs of a ball with 7 blocks at 0, so that every sector of every source has a coincidence.
+TEST(SeparationSearch, FindsTheSameInTheSameOrderOnAnyNumberOfThreads) {
+  const BlockComplex c = complex_of(ball(2, 3, 2, 1), Vec3(1, 1, 1));
+  const quantize::CriticalSet critical = quantize::critical_set(c);
+  const quantize::SeparationSearch search(c, critical);
+  const std::vector<std::int64_t> nothing(c.arcs.size(), 0);
+  const int before = threads();
+  set_threads(1);
+  const std::vector<quantize::Separation> alone = search.run(nothing);
+  EXPECT_GT(alone.size(), 64u);
+  for (const int n : {2, 4}) {
+    set_threads(n);
+    const std::vector<quantize::Separation> found = search.run(nothing);
+    ASSERT_EQ(found.size(), alone.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].cut, alone[i].cut);
+      EXPECT_EQ(found[i].positive_only, alone[i].positive_only);
+      EXPECT_EQ(found[i].node, alone[i].node);
+    }
+  }
+  set_threads(before);
 }

@@ -103,8 +103,8 @@ TEST(LowerBounds, ArcsKeepTheirLeastLength) {
   }
 }
 
-// A bar of four hexes bent round half a circle: the map is straight, the curves along it turn three times by 45
-// degrees.
+// A bar of four hexes bent round half a circle: the map is straight, the curves along it stand for 180 degrees, of
+// which three turns of 45 are seen.
 TEST(LowerBounds, ArcsKnowHowFarTheyTurnInSpace) {
   MappedMesh m = grid_of_blocks({{{1, 1}, {1, 1}, {1, 1, 1, 1}}}, [](int i, int j, int) { return i == 0 || j == 0; });
   for (Vec3& p : m.mesh.points) {
@@ -116,7 +116,7 @@ TEST(LowerBounds, ArcsKnowHowFarTheyTurnInSpace) {
   for (const BlockComplex::Arc& arc : c.arcs) {
     const bool is_curved = arc.turning > 0.01;
     curved += is_curved;
-    EXPECT_NEAR(arc.turning, is_curved ? 3 * std::numbers::pi / 4 : 0, 1e-9);
+    EXPECT_NEAR(arc.turning, is_curved ? std::numbers::pi : 0, 1e-9);
   }
   EXPECT_EQ(curved, 8) << "six edges of the L, and two where the planes of its concave edge meet the boundary";
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "hexfield/field/edge_codes.hpp"
 #include "hexfield/field/singularity_graph.hpp"
@@ -51,21 +52,12 @@ class CellMesh {
 
 // A block with a fin on half of its top whose height grows from zero at z = 1: at (2, 4, 1) a convex and a concave
 // feature curve leave in parallel, and the surface between them has no quad there. Constant field.
-RepairState fin_state(bool with_guide) {
-  CellMesh cells;
-  auto corner = [](const std::array<int, 3>& c) {
-    const double height = 0.25 * std::max(0, c[2] - 1);
-    return Vec3(c[0], c[1] <= 4 ? c[1] : 4 + (c[1] - 4) * height, c[2]);
-  };
-  for (int x = 0; x < 4; ++x)
-    for (int y = 0; y < 5; ++y)
-      for (int z = 0; z < 4; ++z)
-        if (y < 4 || x >= 2) cells.add_cell({x, y, z}, corner);
+RepairState state_of(const CellMesh& cells, const std::vector<int>& guide) {
   RepairState state;
   state.mesh = build_tet_mesh(cells.points, cells.tets);
-  if (with_guide) {
+  if (!guide.empty()) {
     state.features = features_from_angles(state.mesh);
-    for (int x = 2; x < 4; ++x)
+    for (int x : guide)
       state.features.edges[edge_key(vertex_at(state.mesh, Vec3(x, 4, 1)), vertex_at(state.mesh, Vec3(x + 1, 4, 1)))] =
           1;
   }
@@ -77,6 +69,20 @@ RepairState fin_state(bool with_guide) {
   return state;
 }
 
+// The fin covers first <= x < last of the top.
+RepairState fin_state(int length, int first, int last, const std::vector<int>& guide) {
+  CellMesh cells;
+  auto corner = [](const std::array<int, 3>& c) {
+    const double height = 0.25 * std::max(0, c[2] - 1);
+    return Vec3(c[0], c[1] <= 4 ? c[1] : 4 + (c[1] - 4) * height, c[2]);
+  };
+  for (int x = 0; x < length; ++x)
+    for (int y = 0; y < 5; ++y)
+      for (int z = 0; z < 4; ++z)
+        if (y < 4 || (x >= first && x < last)) cells.add_cell({x, y, z}, corner);
+  return state_of(cells, guide);
+}
+
 std::vector<std::string> defects(const RepairState& state) {
   std::vector<std::string> all;
   for (const Defect& d : find_defects(state.mesh, state.features, state.field, state.codes)) all.push_back(d.sentence);
@@ -86,7 +92,7 @@ std::vector<std::string> defects(const RepairState& state) {
 }  // namespace
 
 TEST(ConstrainedZippers, AGuideIsWalkedToTheTransversalBoundary) {
-  const RepairState state = fin_state(true);
+  const RepairState state = fin_state(4, 2, 4, {2, 3});
   const VertexId v = vertex_at(state.mesh, {2, 4, 1});
   const TetId tet = find_tet_with_edge(state.mesh, v, vertex_at(state.mesh, {3, 4, 1}));
   const Guide guide = walk_guide(state, {v, tet}, 0, Vec3(0, 0, 1));
@@ -97,7 +103,7 @@ TEST(ConstrainedZippers, AGuideIsWalkedToTheTransversalBoundary) {
 }
 
 TEST(ConstrainedZippers, ASectorBetweenParallelCurvesIsOpenedAlongTheGuide) {
-  RepairState state = fin_state(true);
+  RepairState state = fin_state(4, 2, 4, {2, 3});
   ASSERT_EQ(defects(state).size(), 1u);
   EXPECT_EQ(repair_constrained_zipper_nodes(state), 1);
   EXPECT_TRUE(check(state).empty());
@@ -107,4 +113,25 @@ TEST(ConstrainedZippers, ASectorBetweenParallelCurvesIsOpenedAlongTheGuide) {
   // The line of code +1 stays on the guide.
   const VertexId a = vertex_at(state.mesh, {2, 4, 1}), b = vertex_at(state.mesh, {3, 4, 1});
   EXPECT_EQ(code_of(state, edge_key(a, b)), 1);
+}
+
+// The guides of both ends of the fin stop before its middle; one line goes from end to end, not one from each.
+TEST(ConstrainedZippers, TwoSectorsOpenTowardsEachOtherAlongBothGuides) {
+  RepairState state = fin_state(7, 2, 5, {2, 4});
+  ASSERT_EQ(defects(state).size(), 2u);
+  EXPECT_EQ(repair_constrained_zipper_nodes(state), 1);
+  EXPECT_TRUE(check(state).empty());
+  EXPECT_EQ(defects(state), std::vector<std::string>());
+  EXPECT_EQ(state.codes, compute_codes(state.mesh, state.features, state.field));
+  for (int x : {2, 4})
+    EXPECT_EQ(code_of(state, edge_key(vertex_at(state.mesh, Vec3(x, 4, 1)), vertex_at(state.mesh, Vec3(x + 1, 4, 1)))),
+              1);
+  int arcs = 0, lines = 0;
+  const std::set<VertexId> ends{vertex_at(state.mesh, {2, 4, 1}), vertex_at(state.mesh, {5, 4, 1})};
+  for (const SingularArc& arc : singularity_graph(state.mesh, state.features, state.field, state.codes).arcs) {
+    arcs += arc.code == -1 && !arc.boundary;
+    lines += arc.code == 1 && std::set<VertexId>{arc.vertices.front(), arc.vertices.back()} == ends;
+  }
+  EXPECT_EQ(arcs, 1);
+  EXPECT_EQ(lines, 1);
 }

@@ -51,6 +51,17 @@ void expect_sound(const RepairState& state) {
 
 }  // namespace
 
+// The arcs beside the compound edge close to loops of two edges, which vanish with it.
+TEST(EdgeRepair, AContractedCompoundEdgeTakesItsLoopsAlong) {
+  RepairState state = turned_state(1, 1);
+  ASSERT_EQ(code_of(state, diagonal(state)), compound_code);
+  ASSERT_TRUE(contract_compound_edge(state, diagonal(state)));
+  for (const Violation& v : check(state)) ADD_FAILURE() << v.sentence;
+  EXPECT_EQ(state.codes, compute_codes(state.mesh, state.features, state.field));
+  for (const auto& entry : state.codes) EXPECT_TRUE(state.features.edges.contains(entry.first));
+  EXPECT_FALSE(contract_compound_edge(state, state.codes.begin()->first));
+}
+
 TEST(EdgeRepair, AThirdTurnBecomesTwoArcsOfQuarterTurns) {
   RepairState state = turned_state(1, 1);
   ASSERT_EQ(code_of(state, diagonal(state)), compound_code);

@@ -174,3 +174,27 @@ TEST(Meshability, ACodeThatTheMatchingsDoNotHaveIsNotMeshable) {
   state.codes[edge_key(vertex_at(state.mesh, {1, 1, 1}), vertex_at(state.mesh, {2, 1, 1}))] = compound_code;
   EXPECT_EQ(check_meshability(state).bad_edges.size(), 1u);
 }
+
+TEST(Meshability, AVerdictIsRememberedAsLongAsItsOneRing) {
+  RepairState state = zipper_state();
+  const VertexId zipper = vertex_at(state.mesh, {1, 1, 1}), inner = vertex_at(state.mesh, {2, 1, 1});
+  std::optional<VerdictMemory::Key> of_zipper, of_inner, again;
+  EXPECT_EQ(vertex_verdict(state, zipper, {}, nullptr, &of_zipper), VertexVerdict::not_meshable);
+  EXPECT_EQ(vertex_verdict(state, inner, {}, nullptr, &of_inner), VertexVerdict::meshable);
+  ASSERT_TRUE(of_zipper && of_inner);
+  EXPECT_NE(*of_zipper, *of_inner);
+
+  state.mesh.points[inner.index()] += Vec3(0.1, 0.05, -0.1);  // geometry does not matter
+  vertex_verdict(state, inner, {}, nullptr, &again);
+  EXPECT_EQ(again, of_inner);
+  VerdictMemory memory;
+  memory.note(*of_inner, VertexVerdict::not_meshable);  // a lie, to see that it is believed
+  VertexMapOptions options;
+  options.memory = &memory;
+  EXPECT_EQ(vertex_verdict(state, inner, options), VertexVerdict::not_meshable);
+  EXPECT_TRUE(memory.found().all().empty());
+
+  split_edge(state, vertex_at(state.mesh, {3, 1, 1}), vertex_at(state.mesh, {3, 2, 1}));  // a side of the link
+  EXPECT_EQ(vertex_verdict(state, inner, options, nullptr, &again), VertexVerdict::meshable);
+  EXPECT_NE(again, of_inner);
+}

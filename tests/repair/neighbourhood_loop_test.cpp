@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+
+#include "hexfield/base/error.hpp"
 #include "hexfield/base/parallel.hpp"
 #include "support/repair_states.hpp"
 
@@ -65,4 +69,45 @@ TEST(NeighbourhoodLoop, WhatIsNotCommittedHasNotHappened) {
     return false;
   });
   EXPECT_EQ(state.mesh.tets, before);
+}
+
+TEST(NeighbourhoodLoop, AStopIsHeardBeforeEveryPlace) {
+  RepairState state = box_state(6);
+  const auto places = inner_places(state.mesh);
+  std::atomic<int> done = 0;
+  state.watch = std::make_shared<RepairWatch>();
+  state.watch->stop_requested = [&] { return done >= 3; };
+  const auto operation = [&](Neighbourhood& copy, std::span<const VertexId> seeds) {
+    ++done;
+    copy.local.begin_operation(0);  // copies ask, too
+    return split_first_edge(copy, seeds);
+  };
+  try {
+    for_places(state, places, operation);
+    FAIL() << "Nobody heard the stop.";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::stopped);
+  }
+  EXPECT_LT(done, 3 + threads());
+}
+
+TEST(NeighbourhoodLoop, TheWorkIsCountedAndItsBudgetEndsTheLoopForAnyNumberOfThreads) {
+  const int before = threads();
+  std::vector<long> work;
+  std::vector<std::vector<char>> commits;
+  for (int number : {1, 2}) {
+    set_threads(number);
+    RepairState state = box_state(6);
+    state.watch = std::make_shared<RepairWatch>();
+    state.watch->budget = 100;
+    commits.push_back(for_places(state, inner_places(state.mesh), split_first_edge));
+    EXPECT_TRUE(state.exhausted());
+    work.push_back(state.watch->work);
+  }
+  set_threads(before);
+  EXPECT_EQ(work[0], work[1]);
+  EXPECT_EQ(commits[0], commits[1]);
+  const auto changed = std::count(commits[0].begin(), commits[0].end(), 1);
+  EXPECT_GT(changed, 0);    // the first round is worked off
+  EXPECT_LT(changed, 125);  // the places that waited for it are not
 }

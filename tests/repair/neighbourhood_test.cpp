@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/meshes.hpp"
 
 using namespace hexfield;
@@ -96,4 +98,26 @@ TEST(Neighbourhood, ChangedCodesAndMatchingsArriveInTheParent) {
   std::size_t changed = 0;
   for (const auto& m : state.field.matchings) changed += m != std::array<octahedral::Rotation, 4>{};
   EXPECT_EQ(changed, 1u);
+}
+
+TEST(Neighbourhood, RingsAreTheSameForFewAndForManySeeds) {
+  const TetMesh mesh = hexfield::testing::kuhn_box(7, 7, 7);
+  std::vector<VertexId> many;
+  for (int v = 0; v < 60; ++v) many.emplace_back(2 * v);
+  const std::vector<std::vector<VertexId>> cases = {{VertexId(0)}, {VertexId(100), VertexId(300)}, many};
+  for (const std::vector<VertexId>& seeds : cases)
+    for (int rings = 0; rings <= 2; ++rings) {
+      std::vector<VertexId> vertices = seeds;
+      std::vector<TetId> expected;
+      for (int ring = 0; ring <= rings; ++ring) {
+        expected.clear();
+        for (std::size_t i = 0; i < mesh.num_tets(); ++i)
+          if (const TetId t(static_cast<std::int64_t>(i));
+              std::ranges::any_of(vertices, [&](VertexId v) { return mesh.has_vertex(t, v); }))
+            expected.push_back(t);
+        vertices.clear();
+        for (TetId t : expected) vertices.insert(vertices.end(), mesh.vertices(t).begin(), mesh.vertices(t).end());
+      }
+      EXPECT_EQ(tets_around(mesh, seeds, rings), expected) << seeds.size() << " seeds, " << rings << " rings";
+    }
 }

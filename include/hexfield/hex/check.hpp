@@ -33,6 +33,7 @@ struct MeshTopology {
   int euler_volume = 0;
   int euler_boundary = 0;
   int boundary_edges_not_in_two_faces = 0;
+  bool operator==(const MeshTopology&) const = default;
 };
 MeshTopology topology(const HexMesh& mesh);
 MeshTopology topology(const TetMesh& mesh);

@@ -61,6 +61,9 @@ struct IntegerChoice {
   double scale = 1;
   std::vector<double> integers;
   double hexes = 0;  ///< that the map will have
+  /// Per tet, by how much it should grow along the axes of its chart in the seamless map, which is not scaled; or
+  /// empty.
+  std::vector<Vec3> stretches = {};
 };
 
 /// Parameters of the rounding quantizer and stage 6 (spec-lmff section 9, spec-quantization section 6).

@@ -30,6 +30,10 @@ struct IntegrableOptions {
   int aggregate_size = 20;                ///< tets per aggregate of the coarse space for fields that are not gradients
   bool refresh_scale = true;              ///< measure distortion against the volumes of the last stage's frames
   int cholesky_limit = 150000;            ///< coarse spaces with more unknowns use multigrid
+  /// Iterations of the linear solver (with what the rest of a Newton step is worth) in all stages together, after which
+  /// the frames are as good as they get; 0: no limit. A number of passes over the mesh, so the time is proportional to
+  /// its size.
+  long max_work = 0;
 };
 
 /// What one stage did. Energies are without their weights.
@@ -43,7 +47,8 @@ struct IntegrableStageReport {
   double integrability = 0;
   /// Largest |(J_i - M_ij J_j) t| over unit vectors t of inner faces, times the local edge length (so relative).
   double max_curl = 0;
-  bool stopped = false;  ///< Control asked to stop; the frames are those of the last accepted step
+  bool stopped = false;    ///< Control asked to stop; the frames are those of the last accepted step
+  bool exhausted = false;  ///< the work of all stages is done; the frames are those of the last accepted step
 };
 
 /// Frames J_t (rows are the gradients of the three coordinates in tet t), optimised towards integrability
@@ -64,22 +69,26 @@ class IntegrableFrames {
   IntegrableFrames& operator=(const IntegrableFrames&) = delete;
 
   /// Minimises with these weights from the present frames. `tolerance`: see decrease_tolerance. Asks
-  /// control.stop_requested after every step (does not throw). Collective.
+  /// control.stop_requested in every iteration of the linear solver (does not throw). Collective.
   IntegrableStageReport run(const IntegrableStage& stage, double tolerance, const Control& control);
 
   /// J per tet on rank 0 (empty elsewhere). Collective.
   std::vector<Mat3> gather() const;
   /// Replaces the frames by J per tet from rank 0, projected onto the constraints. Collective.
   void set(const std::vector<Mat3>& on_root);
+  /// Work so far, in the unit of IntegrableOptions::max_work, and what an interrupted run had done.
+  long work() const;
+  void set_work(long work);
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Runs the schedule. After each stage `done(stage index, frames, report)` is asked, on all ranks, whether to end
-/// early (it must answer the same everywhere). Offers and restores the iterate "integrable-frames" (stage, then
-/// 9 numbers per tet) through `control`; throws Error(stopped) when asked to stop. Collective.
+/// Runs the schedule until its end or that of the work. After each stage `done(stage index, frames, report)` is asked,
+/// on all ranks, whether to end early (it must answer the same everywhere). Offers and restores the iterate
+/// "integrable-frames" (stage, work, then 9 numbers per tet) through `control`; throws Error(stopped) when asked to
+/// stop. Collective.
 std::vector<IntegrableStageReport> optimise_integrable_frames(
     IntegrableFrames& frames, MPI_Comm comm, const IntegrableOptions& options, const Control& control,
     const std::function<bool(std::size_t, IntegrableFrames&, const IntegrableStageReport&)>& done);

@@ -84,9 +84,9 @@ EdgeRing edge_ring(const TetMesh& mesh, TetId seed, VertexId a, VertexId b);
 /// All alive tets at v that are connected to mesh.vertex_tet[v] through faces at v, ascending.
 std::vector<TetId> vertex_star(const TetMesh& mesh, VertexId v);
 
-/// A tet that contains the edge, or an invalid id when no such edge exists.
+/// The smallest tet that contains the edge (in one fan of it), or an invalid id when no such edge exists.
 TetId find_tet_with_edge(const TetMesh& mesh, VertexId a, VertexId b);
-/// A half-face with these vertices, or an invalid id.
+/// The smaller half-face with these vertices, or an invalid id.
 HalfFaceId find_half_face(const TetMesh& mesh, const FaceKey& face);
 
 /// Broken invariants of the mesh: opposites not mutual, wrong vertex_tet, tets not positive.

@@ -31,7 +31,7 @@ struct BlockComplex {
     bool feature = false;
     bool boundary = false;
     int code = 0;        ///< quarter-turns minus 4 (inner) or 2 (boundary)
-    double turning = 0;  ///< sum of the angles between consecutive edges in the input's space, radians
+    double turning = 0;  ///< of the curve it stands for in the input's space, radians
   };
   struct Patch {
     std::array<std::int32_t, 2> blocks{-1, -1};  ///< ascending; the second is -1 on the boundary

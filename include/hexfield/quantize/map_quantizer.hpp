@@ -28,6 +28,11 @@ class MapQuantizer {
   /// same one, else Error(no_integer_grid_map) with the place; so are lengths that check() does not accept.
   std::vector<double> integer_unknowns(const ConformingSpace& space, const std::vector<std::int64_t>& lengths) const;
 
+  /// Per tet of the mesh, how much it grows along the axes of its chart when the blocks that it lies in take these
+  /// lengths: integer over real extent of the block, parameter units, the geometric mean over the parts of the tet. A
+  /// block without extent counts as a quarter of a hex. Lengths as for integer_unknowns().
+  std::vector<Vec3> stretches(const std::vector<std::int64_t>& lengths) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

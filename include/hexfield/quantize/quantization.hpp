@@ -45,8 +45,8 @@ struct Quantization {
 
 /// Integer lengths close to the scaled real ones such that opposite sides of every patch agree, no feature or
 /// singular arc and no boundary region collapses, and no two of them that are apart coincide. Throws
-/// Error(no_integer_grid_map) when a program has no solution, Error(usage) for options out of range. Not collective,
-/// serial.
+/// Error(no_integer_grid_map) when a program has no solution, Error(usage) for options out of range. Not collective;
+/// separations are searched in parallel, with the same result for any number of threads.
 Quantization quantize_complex(const BlockComplex& complex, const QuantizeOptions& options);
 
 /// Patches whose sides differ, links and regions shorter than the least number of layers, and critical entities at

@@ -17,6 +17,11 @@ int split_one_ring(RepairState& state, VertexId v);
 /// factorisations the one that leaves the least turning around the edge is taken.
 bool repair_compound_edge(RepairState& state, const EdgeKey& edge);
 
+/// A compound edge is contracted: often it is all that keeps two halves of a node apart. One of its ends takes the place
+/// of the other, where the remeshing may do that (remesh.hpp) and what comes about is a node that hex meshes have, or
+/// has compound edges left.
+bool contract_compound_edge(RepairState& state, const EdgeKey& edge);
+
 /// An inner edge of |code| >= 2 gives one quarter-turn to a new arc of two edges, such that |code| drops by one.
 bool lower_index(RepairState& state, const EdgeKey& edge);
 
@@ -44,15 +49,29 @@ bool push_inside(RepairState& state, VertexId v);
 /// vertices pushed.
 int push_arcs_inside(RepairState& state);
 
+/// Puts a vertex of a feature surface inside the domain, on no feature curve, to the side of the surface where `side`,
+/// a tet at it, lies: a new vertex takes over its place, the surface and all tets beyond. Singular edges that v has in
+/// the surface are at its side afterwards and keep their codes; an arc that came to v from beyond goes on through the
+/// new vertex. False, and the state is as it was, where v has more than one arc beyond, where the surface would not be
+/// flat for the field at the new vertex, or where no place at the side makes all tets positive. Copies the state: meant
+/// for a Neighbourhood. Frames are not smoothed.
+bool push_off_surface(RepairState& state, VertexId v, TetId side);
+
+/// push_off_surface() for all vertices of arcs that run in feature surfaces although their axis is the normal
+/// (see lift_from_surface()): each arc from end to end to one side, the one where more of its ends lie, so that it
+/// crosses the surface once or not at all; edge by edge it would change sides at every vertex. Also vertices where an
+/// arc touches a surface without crossing it. Returns the number of vertices pushed.
+int lift_arcs_from_surfaces(RepairState& state);
+
 /// What repair_edges() did.
 struct EdgeRepairCounts {
-  int compound = 0, index = 0, sectors = 0, lifted = 0, triangles = 0, pushed = 0;
-  int total() const { return compound + index + sectors + lifted + triangles + pushed; }
+  int contracted = 0, compound = 0, index = 0, sectors = 0, lifted = 0, triangles = 0, pushed = 0;
+  int total() const { return contracted + compound + index + sectors + lifted + triangles + pushed; }
 };
 
-/// Which of them repair_edges() applies. Stage I of the schedule leaves compound edges to shrink (section 5.7).
+/// Which of them repair_edges() applies. Stage I of the schedule leaves compound edges inside to shrink (section 5.7).
 struct EdgeRepairOptions {
-  bool compound = true, index = true, sectors = true, lift = true, triangles = true, push = true;
+  bool contract = true, compound = true, compound_inside = true, index = true, sectors = true, lift = true, triangles = true, push = true;
   int rounds = 6;  ///< at most; ends when a round mends nothing
 };
 

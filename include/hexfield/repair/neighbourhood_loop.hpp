@@ -18,8 +18,8 @@ using LocalOperation = std::function<bool(Neighbourhood& copy, std::span<const V
 
 /// Runs `operation` once at every place: claims, in order, places that share no tet, works on them at the same time
 /// and commits them in order; the others wait for the next round, and find there what has been committed. Places
-/// whose seeds are gone are passed over. `commits[i]` says whether place i was changed. The result does not depend
-/// on the number of threads. Not collective.
+/// whose seeds are gone are passed over, and those that wait when the budget of work is spent. `commits[i]` says
+/// whether place i was changed. The result does not depend on the number of threads. Not collective.
 std::vector<char> for_places(RepairState& state, std::span<const Place> places, const LocalOperation& operation);
 
 }  // namespace hexfield

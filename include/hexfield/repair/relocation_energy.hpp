@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCore>
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -120,6 +121,7 @@ struct NewtonDescent {
 };
 /// Projected Newton with sparse LDL^T from y, which is overwritten: ends after `max_iterations` or when a step
 /// lowers the energy by less than `tolerance` of it. Never leaves the domain. Same bytes for any number of threads.
-NewtonDescent descend(const RelocationEnergy& energy, Eigen::VectorXd& y, int max_iterations, double tolerance);
+NewtonDescent descend(const RelocationEnergy& energy, Eigen::VectorXd& y, int max_iterations, double tolerance,
+                      const std::function<void()>& before_step = {});
 
 }  // namespace hexfield

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hexfield/base/control.hpp"
+#include "hexfield/repair/meshability.hpp"
 #include "hexfield/repair/repair_state.hpp"
 
 namespace hexfield {
@@ -18,13 +19,9 @@ struct RepairOptions {
   int inner_iterations = 6;      ///< relocations and remeshings per round of Stage II
   double alignment_weight = 10;  ///< of singular edges to the field, against the other energies of the relocation
   int post_remesh_rounds = 3;    ///< rounds of remeshing of the whole mesh at the end
+  /// Work (RepairWatch::work) per tet of the input after which no more operations are begun; 0: no limit.
+  int work_per_tet = 3000;
 };
-
-/// Another setting for another try; 0 is `options` itself. The changes are those by which the authors of the method
-/// got further models by hand: iterations and alignment weight (Liu and Bommes 2023, section 7).
-RepairOptions varied(const RepairOptions& options, int attempt);
-/// What varied() changed, for the report: "default", "alignment weight 1".
-std::string name_of_variation(int attempt);
 
 /// How many edges and vertices are not locally meshable, and the singular defects by kind.
 struct DefectCounts {
@@ -38,6 +35,7 @@ struct RepairReport {
   std::map<std::string, long> operations;  ///< done, by kind
   std::map<std::string, double> seconds;   ///< spent, by kind
   int iterations = 0;
+  long work = 0;  ///< RepairWatch::work
 };
 
 /// What a repair has reached after some iterations; all it needs to go on.
@@ -46,6 +44,7 @@ struct RepairIterate {
   RepairReport report;
   double compound_shrink = 1;  ///< weights that grow while defects of their kind stay
   double zipper_shrink = 1;
+  VerdictMemory verdicts;   ///< on the one-rings of the last tests
   int stale_rounds = 0;     ///< rounds since there were fewest defects
   int fewest_defects = -1;  ///< negative: not counted yet
 };
@@ -53,7 +52,7 @@ struct RepairIterate {
 /// Safe points of the repair. Every member may be empty.
 struct RepairControl {
   std::function<void(const std::string& what, double fraction)> progress;
-  std::function<bool()> stop_requested;
+  std::function<bool()> stop_requested;                  ///< asked from any thread, between small operations
   std::function<void(const RepairIterate&)> checkpoint;  ///< after every iteration
 };
 
@@ -62,12 +61,13 @@ struct RepairResult {
   RepairReport report;
 };
 
-/// Start of a repair: target lengths from the edges of the mesh, defects counted.
-RepairIterate start_repair(FieldResult smooth);
+/// Start of a repair: target lengths from the edges of the mesh, defects counted. Throws Error(stopped).
+RepairIterate start_repair(FieldResult smooth, const RepairControl& control = {});
 
 /// Stage 3: turns a smooth field into one that is locally meshable wherever it can (Liu and Bommes 2023, sections 4
 /// and 5; spec-lmff section 5.7), on a refined mesh. Goes on from `iterate`. `input` is the mesh with features whose
-/// surface and curves the result must keep. The result is the same for any number of threads. Throws Error(stopped)
+/// surface and curves the result must keep. The result is the same for any number of threads. Where the work is spent
+/// before the field is meshable, the result is what was reached. Throws Error(stopped)
 /// when control.stop_requested() says so. Not collective: one rank holds the whole mesh.
 RepairResult repair_field(RepairIterate iterate, const FieldResult& input, const RepairOptions& options,
                           const RepairControl& control);

@@ -80,6 +80,8 @@ EdgeRing ring_of(const TetMesh& mesh, VertexId a, VertexId b);
 
 /// Computes the codes of these edges again from frames and matchings; edges that are gone lose theirs.
 void update_codes(RepairState& state, std::span<const EdgeKey> edges);
+/// The same for edges of which a tet is known.
+void update_codes(RepairState& state, std::span<const std::pair<EdgeKey, TetId>> edges);
 
 /// Algorithm 1 on these tets only (spec-lmff section 4), aligned to features and singular edges; the frames of
 /// other tets are boundary values. `sign` says how the axes of singular edges get their sign.

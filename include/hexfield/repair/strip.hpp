@@ -30,6 +30,7 @@ struct StripRequest {
   /// So many first path vertices lie on features: their spokes, but the first and last, stay off feature faces. Others
   /// may lie in a face that the path crosses.
   std::size_t held = 0;
+  std::size_t held_last = 0;  ///< and so many last ones
 };
 
 struct Strip {
@@ -42,6 +43,10 @@ struct Strip {
   /// Edges that bound Z: both sides, start and end unless these lie on the boundary.
   std::vector<EdgeKey> boundary() const;
 };
+
+/// Splits the inner faces at v, a vertex on features, between two edges that are special or lie in feature faces:
+/// spokes get past everywhere.
+void free_spokes(RepairState& state, VertexId v);
 
 /// Finds the spokes whose directions deviate least from `side` and splits them. Nothing when there are none; then
 /// nothing has changed.

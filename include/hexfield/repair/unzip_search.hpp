@@ -33,7 +33,7 @@ struct UnzipSeed {
 /// An edge at an anti-parallel zipper node, seen from a tet around it: reached by a path whose label is `u`.
 struct UnzipPartner {
   VertexId node;
-  EdgeKey edge{};
+  EdgeKey edge{};  ///< no edge: the node as such
   octahedral::Label u = octahedral::no_label;
 };
 using UnzipPartners = std::multimap<TetId, UnzipPartner>;

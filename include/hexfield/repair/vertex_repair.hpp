@@ -44,9 +44,19 @@ struct VertexRepairOptions {
   VertexMapOptions map{};  ///< of the meshability test
 };
 
-/// Is there anything to repair at v? Vertices with compound edges are left to edge repairs; counts of codes decide
-/// where they can, else the map of the one-ring does.
-bool needs_repair(const RepairState& state, VertexId v, const VertexRepairOptions& options = {});
+/// Is there anything to repair at a vertex?
+struct VertexNeed {
+  bool repair = false;
+  std::optional<VerdictMemory::Key> key;  ///< of the one-ring, where its map was asked for: notes `verdict`
+  VertexVerdict verdict = VertexVerdict::meshable;
+};
+
+/// Vertices with compound edges are left to edge repairs; counts of codes decide where they can, else the map of the
+/// one-ring does.
+VertexNeed need_of_repair(const RepairState& state, VertexId v, const VertexRepairOptions& options = {});
+inline bool needs_repair(const RepairState& state, VertexId v, const VertexRepairOptions& options = {}) {
+  return need_of_repair(state, v, options).repair;
+}
 
 /// Tries the operations in the order of spec-lmff section 5.5 for an inner vertex, one on an inner feature surface or
 /// one on the boundary, while they succeed and the vertex is not meshable. Each must leave fewer parabolic sectors at

@@ -29,10 +29,10 @@ UnzipPartners unzip_partners(const RepairState& state, std::span<const FreeZippe
 /// and the field as it was. `strip`, if given, receives the surface between the arcs.
 bool unzip(RepairState& state, const UnzipPath& path, const ZipperOptions& options, Strip* strip = nullptr);
 
-/// Selects free zipper nodes, searches for all of them in parallel, and unzips them, those of the longest arcs
-/// first; a search is done again when an earlier unzip touched its path. Surfaces of this pass are not crossed.
-/// Where no path is found the node stays: the next pass sees another field. Returns the number of zipper nodes unzipped
-/// (a partner counts).
+/// Selects free zipper nodes, searches for all of them in parallel, and unzips them: first those with
+/// a partner, the nearest pairs before the others, then those of the longest arcs; a search is done again when an
+/// earlier unzip touched its path. Surfaces of this pass are not crossed. Where no path is found the node stays: the
+/// next pass sees another field. Returns the number of zipper nodes unzipped (a partner counts).
 int unzip_free_zipper_nodes(RepairState& state, const ZipperOptions& options = {});
 
 /// (S1) Zipping near the boundary: both arcs of a free zipper node end on the boundary one edge away, at vertices

@@ -31,15 +31,16 @@ struct FlowChain {
 };
 
 /// A zipper node and the arcs that leave it along one axis: inside two of them, edges[0] of code -1 and edges[1] of
-/// code +1; on a boundary face the only one, whose flow leads out.
+/// code +1; on a boundary face or a reentrant curve the only one, whose flow leads out.
 struct FreeZipper {
   VertexId node;
   std::vector<EdgeKey> edges;
   double arc_length = 0;  ///< of its chain
 };
 
-/// A zipper node that nothing holds: an inner vertex with two singular edges, of codes +1 and -1, or a vertex of the
-/// boundary off the feature curves with one singular edge, an inner one of code +1 or -1 whose flow leads out.
+/// A zipper node that comes apart inside: an inner vertex with two singular edges, of codes +1 and -1, or a vertex of
+/// the boundary off the feature curves with one singular edge, an inner one of code +1 or -1 whose flow leads out, or
+/// one on a reentrant curve (is_zipper_on_curve).
 bool is_free_zipper(const RepairState& state, VertexId v);
 /// The zipper node with the edges that it has now.
 FreeZipper free_zipper_at(const RepairState& state, VertexId v);

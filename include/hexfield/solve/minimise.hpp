@@ -62,6 +62,9 @@ struct NewtonOptions {
   /// Called after every accepted step with (iteration, energy, gradient norm); return false to stop.
   /// Called on all ranks with the same values; must return the same on all.
   std::function<bool(int, double, double)> monitor;
+  /// Asked in every iteration of the linear solver, on all ranks, with the same answer; true drops the step under way
+  /// and ends with NewtonEnd::stopped. May be empty.
+  std::function<bool()> interrupted;
   /// Where to go on, and kept up to date for the monitor; may be null.
   NewtonMemory* memory = nullptr;
 };
@@ -84,9 +87,10 @@ NewtonResult minimise(MPI_Comm comm, std::span<const EnergyTerm* const> terms, V
 
 /// Minimiser of a quadratic sum of terms, to a relative gradient of about 1e-12 (conjugate gradients with this
 /// preconditioner, refined once); y is the start and the result. Where the sum has no unique minimiser, directions
-/// without energy keep their start. Collective.
+/// without energy keep their start. `interrupted`: see NewtonOptions. Collective.
 NewtonResult solve_linear(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec y,
-                          Preconditioner preconditioner = Preconditioner::amg, int block_size = 1);
+                          Preconditioner preconditioner = Preconditioner::amg, int block_size = 1,
+                          const std::function<bool()>& interrupted = {});
 
 /// Value of the sum at y (may be infinite). Collective.
 double evaluate(MPI_Comm comm, std::span<const EnergyTerm* const> terms, Vec y);
