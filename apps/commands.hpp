@@ -24,8 +24,8 @@ std::string version_text();
 /// Says the sentence and ends the process with ExitCode::stopped, whatever its other threads do.
 [[noreturn]] void end_stopped(const std::string& sentence);
 
-/// Runs `work` on rank 0 and gives its exit code to all; exceptions become the same Error on all. A stop signal that
-/// `work` does not hear within some seconds ends the process. Collective.
-ExitCode on_rank_zero(const std::function<ExitCode()>& work);
+/// Runs `work` on rank 0 and gives its exit code to all; exceptions become the same Error on all. `patience` seconds
+/// after a stop signal the process ends, whether `work` has heard it or not. Collective.
+ExitCode on_rank_zero(const std::function<ExitCode()>& work, double patience = 3);
 
 }  // namespace hexfield::apps

@@ -17,11 +17,7 @@
 
 namespace hexfield::apps {
 
-namespace {
-
-constexpr double patience = 3;  // seconds
-
-}  // namespace
+namespace {}  // namespace
 
 std::string version_text() {
   std::string text = fmt::format("hexfield {} ({})\n", program_version(), program_git());
@@ -35,7 +31,7 @@ void end_stopped(const std::string& sentence) {
   std::_Exit(static_cast<int>(ExitCode::stopped));
 }
 
-ExitCode on_rank_zero(const std::function<ExitCode()>& work) {
+ExitCode on_rank_zero(const std::function<ExitCode()>& work, double patience) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   ExitCode code = ExitCode::success;

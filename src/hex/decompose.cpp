@@ -47,33 +47,41 @@ class Decomposer {
     best_measure_ = beam[0].measure();
     seen_.insert(beam[0].hash());
     int side_steps = 0;
-    while (!beam.empty() && best_measure_ > 0 && steps_ < options_.budget) {
+    bool best_in_beam = true;
+    while (!beam.empty() && best_measure_ > 0 && steps_ < options_.budget &&
+           !(one_by_one() && best_measure_ < out.measure_before)) {
       tell(beam);
-      std::vector<hex::SheetState> next = advance(beam, -1);
+      if (best_in_beam) limits_.clear();
+      std::vector<hex::SheetState> next = advance(beam, -1, best_in_beam);
       if (next.empty() && side_steps < most_side_steps && options_.search == DecomposeOptions::Search::exact) {
-        next = advance(beam, 0);
+        next = advance(beam, 0, false);
         ++side_steps;
       } else {
         side_steps = 0;
       }
-      take_best(next);
+      best_in_beam = take_best(next);
       beam = std::move(next);
     }
     out.steps = best_steps_;
     out.measure = best_measure_;
-    out.proven = best_measure_ > 0 && complete_ && steps_ < options_.budget;
+    if (steps_ >= options_.budget) limits_.insert("patches tried");
+    out.proven = best_measure_ > 0 && limits_.empty();
+    out.limits = limits_;
     return out;
   }
   std::int64_t steps() const { return steps_; }
+  /// run() ends with the first sheet that lowers the measure: along one sequence nothing is gained by looking ahead.
+  bool one_by_one() const { return width_ == 1 && options_.search == DecomposeOptions::Search::exact; }
 
  private:
-  /// The states that the best sheets lead to; only sheets that change the measure by at most `most`.
-  std::vector<hex::SheetState> advance(const std::vector<hex::SheetState>& beam, int most) {
+  /// The states that the best sheets lead to; only sheets that change the measure by at most `most`. Notes limits that
+  /// were met if they are to count.
+  std::vector<hex::SheetState> advance(const std::vector<hex::SheetState>& beam, int most, bool count_limits) {
     std::vector<Move> moves;
     for (std::size_t k = 0; k < beam.size(); ++k) {
       const int targets = width_ > 1 ? 2 : 4;
-      auto found = beam[k].sheets(options_, most, targets, 6 * width_, measure_);
-      if (most < 0) complete_ = complete_ && found.complete;
+      auto found = beam[k].sheets(options_, most, targets, 6 * width_, measure_, control_);
+      if (count_limits && !found.complete) limits_.insert(found.limits.begin(), found.limits.end());
       steps_ += found.steps;
       for (auto& sheet : found.sheets) moves.push_back({k, beam[k].measure() + sheet.change, std::move(sheet)});
       if (steps_ >= options_.budget) break;
@@ -94,8 +102,8 @@ class Decomposer {
     return next;
   }
 
-  /// Of the states with the least measure so far the one with the fewest curves.
-  void take_best(const std::vector<hex::SheetState>& states) {
+  /// Of the states with the least measure so far the one with the fewest curves. True when one of these is better.
+  bool take_best(const std::vector<hex::SheetState>& states) {
     std::size_t fewest = 0;
     int least = best_measure_;
     for (const auto& state : states) {
@@ -106,7 +114,9 @@ class Decomposer {
       fewest = curves;
       best_steps_ = state.steps();
     }
+    const bool better = least < best_measure_;
     best_measure_ = least;
+    return better;
   }
 
   void tell(const std::vector<hex::SheetState>& beam) const {
@@ -125,15 +135,12 @@ class Decomposer {
   std::vector<DecomposeStep> best_steps_;
   int best_measure_ = 0;
   std::int64_t steps_;
-  bool complete_ = true;
+  std::set<std::string> limits_;  ///< met when sheets that lower the best measure were searched for
 };
 
-}  // namespace
-
-Decomposition decompose(const HexMesh& mesh, const DecomposeOptions& options,
-                        const std::function<bool(HexMesh&)>& settle, const Control& control) {
-  Decomposition out;
-  out.mesh = mesh;
+/// Searches and settles, until no sheet is found or one is refused for good. What is settled is in `out` at any time.
+void decompose_into(Decomposition& out, const DecomposeOptions& options, const std::function<bool(HexMesh&)>& settle,
+                    const Control& control) {
   std::set<std::uint64_t> refused;  // what settle could not place
   std::int64_t tried = 0;
   hex::NodeMeasure measure(options.final_valence);
@@ -144,12 +151,14 @@ Decomposition decompose(const HexMesh& mesh, const DecomposeOptions& options,
     if (first) out.measure_before = found.measure_before;
     out.measure = found.measure_before;
     out.proven = found.proven && refused.empty();
-    again = false;
+    out.limits = found.limits;
+    again = search.one_by_one() && !found.steps.empty() && found.measure > 0;
     for (const DecomposeStep& step : found.steps) {
       HexMesh next = inflate_sheet(out.mesh, build_hex_complex(out.mesh), step.quads).mesh;
       if (settle && !settle(next)) {
         refused.insert(hex::SheetState(std::move(next), {}, measure).hash());
         again = static_cast<int>(refused.size()) < most_refused;
+        out.sheets_refused = static_cast<int>(refused.size());
         out.proven = false;
         break;
       }
@@ -158,7 +167,21 @@ Decomposition decompose(const HexMesh& mesh, const DecomposeOptions& options,
       out.measure = step.measure;
     }
   }
-  out.sheets_refused = static_cast<int>(refused.size());
+}
+
+}  // namespace
+
+Decomposition decompose(const HexMesh& mesh, const DecomposeOptions& options,
+                        const std::function<bool(HexMesh&)>& settle, const Control& control) {
+  Decomposition out;
+  out.mesh = mesh;
+  try {
+    decompose_into(out, options, settle, control);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::stopped) throw;
+    out.stopped = true;
+    out.proven = false;
+  }
   out.nodes_left = hex_singular_graph(out.mesh, build_hex_complex(out.mesh)).nodes;
   return out;
 }

@@ -36,7 +36,13 @@ Decomposition decompose_on_shape(const HexMesh& mesh, const HexShape& shape, con
     return quality(now).not_positive == 0;
   };
   Decomposition out = decompose(mesh, options, settle, control);
-  improve_thoroughly(out.mesh, shape, control);
+  if (out.stopped) return out;
+  try {
+    improve_thoroughly(out.mesh, shape, control);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::stopped) throw;
+    out.stopped = true;
+  }
   return out;
 }
 

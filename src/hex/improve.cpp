@@ -297,13 +297,12 @@ void Improver::raise_minimum() {
   hexes_.points = std::move(best);
 }
 
-// Blunter minima would work on most corners of the mesh, which the sweeps have done.
 MaximiseOptions last_steps(const ImproveOptions& options) {
   MaximiseOptions out;
-  out.first_sharpness = 64;
-  out.last_sharpness = 1024;
+  out.first_sharpness = options.maximise_sharpness;
+  out.last_sharpness = std::max(1024.0, options.maximise_sharpness);
   out.steps = options.maximise_steps;
-  out.gain = 1e-4;
+  out.gain = options.maximise_gain;
   return out;
 }
 
@@ -312,13 +311,13 @@ MaximiseOptions last_steps(const ImproveOptions& options) {
 void improve_hex_mesh(HexMesh& hexes, const TetMesh& mesh, const Features& features, const ImproveOptions& options,
                       const Control& control) {
   Improver(hexes, hex::VertexPlaces(hexes, mesh, features), options, control).run();
-  if (options.maximise_steps == 0 || !(quality(hexes).min < options.good_enough)) return;
+  if (options.maximise_steps == 0 || !(quality(hexes).min < options.maximise_below)) return;
   maximise_minimum(hexes, mesh, features, last_steps(options), control);
 }
 
 void improve_free_hex_mesh(HexMesh& hexes, const ImproveOptions& options, const Control& control) {
   Improver(hexes, hex::VertexPlaces(hexes.points.size()), options, control).run();
-  if (options.maximise_steps == 0 || !(quality(hexes).min < options.good_enough)) return;
+  if (options.maximise_steps == 0 || !(quality(hexes).min < options.maximise_below)) return;
   maximise_minimum(hexes, last_steps(options), control);
 }
 

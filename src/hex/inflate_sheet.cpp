@@ -109,7 +109,11 @@ int colour_of(const HexMesh& mesh, int hex) { return mesh.hex_colours.empty() ? 
 
 Inflation inflate_sheet(const HexMesh& mesh, const HexComplex& complex, std::vector<int> quads, double gap) {
   const SheetSides sides = sheet_sides(mesh, complex, std::move(quads), feature_quads_of(mesh, complex));
-  if (!sides.defect.empty()) throw Error(ExitCode::bad_input, fmt::format("The quads are no sheet: {}.", sides.defect));
+  if (!sides.defect.empty()) {
+    std::vector<std::int64_t> ids;
+    if (sides.defect_vertex >= 0) ids.push_back(sides.defect_vertex);
+    throw Error(ExitCode::bad_input, fmt::format("The quads are no sheet: {}.", sides.defect), std::move(ids));
+  }
   const hex::SheetMap map = map_of(mesh, complex, sides);
   Inflation out{mesh, sides.vertices};
   const CopyPlacer placer(mesh, complex, sides);

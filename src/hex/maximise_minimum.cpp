@@ -14,6 +14,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double negligible = 1e-7;  // share of a corner in the smooth minimum
 constexpr int most_cg_steps = 80;
+constexpr double too_blunt = 0.25;  // below the minimum: the smooth one speaks of the many good corners
 // Scaled Jacobians do not feel the lengths of edges: without more, some collapse. Edges shorter than this share of
 // those around count like corners.
 constexpr double short_edge = 0.2;
@@ -44,7 +45,9 @@ class Maximiser {
     std::vector<Vec3> best = mesh_.points;
     double best_minimum = minimum(mesh_.points);
     if (!(best_minimum > 0)) return;
-    for (double p = options_.first_sharpness; p <= options_.last_sharpness; p *= 2) {
+    double first = options_.first_sharpness;
+    while (first < options_.last_sharpness && best_minimum - smooth(mesh_.points, first) > too_blunt) first *= 2;
+    for (double p = first; p <= options_.last_sharpness; p *= 2) {
       double damping = 1;
       for (int step = 0; step < options_.steps; ++step) {
         if (control_.progress) control_.progress("raising the smallest scaled Jacobian", -1);

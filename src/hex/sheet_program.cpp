@@ -1,13 +1,9 @@
 #include "sheet_program.hpp"
 
-#include <coin/Cbc_C_Interface.h>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <memory>
-#include <set>
 
+#include "boundary_passes.hpp"
 #include "hex_topology.hpp"
 #include "hexfield/hex/sheet.hpp"
 
@@ -18,11 +14,11 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double infinity = std::numeric_limits<double>::max();
 constexpr int most_edges = 14;  // of a vertex whose cycles are listed
-constexpr int most_rounds = 30;
-
-struct CbcDeleter {
-  void operator()(Cbc_Model* model) const { Cbc_deleteModel(model); }
-};
+constexpr int most_rounds = 60;
+// The measure is whole, and the sizes of the sheets cost less than half a step of it: once nothing can be better by
+// one, they need no proof.
+constexpr double better = -0.5;
+constexpr double whole_gap = 0.49;
 
 }  // namespace
 
@@ -36,20 +32,47 @@ SheetProgram::SheetProgram(const HexMesh& mesh, const HexComplex& complex, const
       max_valence_(max_valence) {
   // Of two sheets that do the same the smaller one; all of these costs together are less than one step of the measure.
   const double small = 0.5 / static_cast<double>(complex.quads.size() + 1);
-  for (std::size_t c = 0; c < classes.usable.size(); ++c)
-    add_column(small * static_cast<double>(classes.quads[static_cast<int>(c)].size()), classes.usable[c] != 0 ? 1 : 0);
-  for (std::size_t c = 0; c < classes.usable.size(); ++c)
-    for (int other : classes.conflicts[static_cast<int>(c)])
-      if (at(other) > c && classes.usable[c] != 0 && classes.usable[at(other)] != 0)
-        rows_.push_back({{{static_cast<int>(c), 1}, {other, 1}}, -infinity, 1});
+  for (std::size_t c = 0; c < classes.usable.size(); ++c) {
+    const int id = static_cast<int>(c);
+    // What meets no singular edge is a sheet of its own that changes nothing.
+    const bool useful = classes.usable[c] != 0 && !classes.rims[id].empty();
+    program_.add(small * static_cast<double>(classes.quads[id].size()), useful ? 1 : 0);
+  }
+  add_conflicts();
   gather_vertices();
   add_free_edges();
 }
 
-int SheetProgram::add_column(double cost, double upper) {
-  cost_.push_back(cost);
-  upper_.push_back(upper);
-  return static_cast<int>(cost_.size()) - 1;
+// Three classes cross at each regular vertex, at most one of them is chosen; pairs elsewhere.
+void SheetProgram::add_conflicts() {
+  const auto live = [&](int c) { return c >= 0 && program_.upper[at(c)] > 0; };
+  std::set<std::vector<int>> cliques;
+  std::vector<char> special(spheres_.size(), 0);
+  for (std::size_t c = 0; c < classes_.usable.size(); ++c)
+    for (int v : classes_.special[static_cast<int>(c)]) special[at(v)] = 1;
+  for (std::size_t v = 0; v < spheres_.size(); ++v) {
+    const int id = static_cast<int>(v);
+    if (special[v] != 0 || complex_.is_boundary_vertex(id)) continue;
+    std::set<int> here;
+    for (int e : complex_.vertex_edges[id])
+      for (int q : complex_.edge_quads[e])
+        if (live(classes_.class_of[at(q)])) here.insert(classes_.class_of[at(q)]);
+    if (here.size() > 1) cliques.insert({here.begin(), here.end()});
+  }
+  std::set<std::pair<int, int>> covered;
+  for (const auto& clique : cliques)
+    for (int a : clique)
+      for (int b : clique) covered.emplace(a, b);
+  for (std::size_t c = 0; c < classes_.usable.size(); ++c)
+    for (int other : classes_.conflicts[static_cast<int>(c)]) {
+      const int id = static_cast<int>(c);
+      if (other > id && live(id) && live(other) && !covered.contains({id, other})) cliques.insert({id, other});
+    }
+  for (const auto& clique : cliques) {
+    Row row{{}, -infinity, 1};
+    for (int c : clique) row.terms.emplace_back(c, 1);
+    program_.rows.push_back(std::move(row));
+  }
 }
 
 bool SheetProgram::straight(const SphereTriangulation& sphere, const std::vector<int>& cycle) const {
@@ -105,25 +128,46 @@ void SheetProgram::gather_vertices() {
     const VertexSphere& star = spheres_[v];
     if (star.edges.empty()) continue;
     if (star.sphere.size() > most_edges) {
-      complete_ = false;
+      limit_ = "edges at a vertex";
       continue;
     }
     const std::vector<Pass> passes = passes_of(star);
-    std::set<int> passed;
-    for (const Pass& pass : passes) passed.insert(pass.classes.begin(), pass.classes.end());
-    for (int e : star.edges)
-      for (int q : complex_.edge_quads[e])
-        if (const int c = classes_.class_of[at(q)]; c >= 0 && !passed.contains(c)) upper_[at(c)] = 0;
+    fix_unpassed(static_cast<int>(v), passes);
     ++groups[passes];
   }
+  gather_boundary(groups);
   for (const auto& [passes, vertices] : groups) add_passes(passes, vertices);
+}
+
+// The arcs at boundary vertices where more than one curve of quads can pass.
+void SheetProgram::gather_boundary(std::map<std::vector<Pass>, int>& groups) {
+  std::set<int> vertices;
+  for (std::size_t c = 0; c < classes_.usable.size(); ++c)
+    for (int v : classes_.special[static_cast<int>(c)])
+      if (complex_.is_boundary_vertex(v)) vertices.insert(v);
+  for (int v : vertices) {
+    const auto arcs = boundary_passes(complex_, classes_, v);
+    if (!arcs) continue;  // too many; sheet_sides() judges solutions there
+    std::vector<Pass> passes;
+    for (const std::vector<int>& arc : *arcs) passes.push_back({arc, 0});
+    fix_unpassed(v, passes);
+    ++groups[passes];
+  }
+}
+
+void SheetProgram::fix_unpassed(int vertex, const std::vector<Pass>& passes) {
+  std::set<int> passed;
+  for (const Pass& pass : passes) passed.insert(pass.classes.begin(), pass.classes.end());
+  for (int e : complex_.vertex_edges[vertex])
+    for (int q : complex_.edge_quads[e])
+      if (const int c = classes_.class_of[at(q)]; c >= 0 && !passed.contains(c)) program_.upper[at(c)] = 0;
 }
 
 void SheetProgram::add_passes(const std::vector<Pass>& passes, int vertices) {
   Row one{{}, -infinity, 1};
   std::map<int, Row> rows;  // per class: it is chosen exactly when one of its passes is
   for (const Pass& pass : passes) {
-    const int z = add_column(static_cast<double>(pass.change) * vertices, 1);
+    const int z = program_.add(static_cast<double>(pass.change) * vertices, 1);
     one.terms.emplace_back(z, 1);
     for (int c : pass.classes) {
       Row& row = rows[c];
@@ -131,8 +175,8 @@ void SheetProgram::add_passes(const std::vector<Pass>& passes, int vertices) {
       row.terms.emplace_back(z, 1);
     }
   }
-  if (!one.terms.empty()) rows_.push_back(std::move(one));
-  for (auto& [c, row] : rows) rows_.push_back(std::move(row));
+  if (!one.terms.empty()) program_.rows.push_back(std::move(one));
+  for (auto& [c, row] : rows) program_.rows.push_back(std::move(row));
 }
 
 // Singular edges without a vertex whose passes are listed: none of their quads or two.
@@ -148,47 +192,9 @@ void SheetProgram::add_free_edges() {
     for (int q : complex_.edge_quads[id])
       if (const int c = classes_.class_of[at(q)]; c >= 0) count[c] += 1;
     Row row{{count.begin(), count.end()}, 0, 0};
-    row.terms.emplace_back(add_column(0, 1), -2);
-    rows_.push_back(std::move(row));
+    row.terms.emplace_back(program_.add(0, 1), -2);
+    program_.rows.push_back(std::move(row));
   }
-}
-
-SheetProgram::Solution SheetProgram::optimise(int most_branches) const {
-  std::vector<std::vector<std::pair<int, double>>> columns(cost_.size());
-  std::vector<double> low, high;
-  for (const Row& row : rows_) {
-    for (const auto& [c, a] : row.terms) columns[at(c)].emplace_back(static_cast<int>(low.size()), a);
-    low.push_back(row.low);
-    high.push_back(row.high);
-  }
-  std::vector<CoinBigIndex> start{0};
-  std::vector<int> index;
-  std::vector<double> value;
-  for (const auto& column : columns) {
-    for (const auto& [row, a] : column) {
-      index.push_back(row);
-      value.push_back(a);
-    }
-    start.push_back(static_cast<CoinBigIndex>(index.size()));
-  }
-  const std::vector<double> lower(cost_.size(), 0);
-  const std::unique_ptr<Cbc_Model, CbcDeleter> model(Cbc_newModel());
-  Cbc_setLogLevel(model.get(), 0);
-  Cbc_setParameter(model.get(), "log", "0");
-  Cbc_loadProblem(model.get(), static_cast<int>(cost_.size()), static_cast<int>(low.size()), start.data(), index.data(),
-                  value.data(), lower.data(), upper_.data(), cost_.data(), low.data(), high.data());
-  for (std::size_t c = 0; c < cost_.size(); ++c) Cbc_setInteger(model.get(), static_cast<int>(c));
-  Cbc_setMaximumNodes(model.get(), most_branches);
-  // The measure is whole: once nothing can be better by one, the sizes of the sheets need no proof.
-  Cbc_setAllowableGap(model.get(), 0.49);
-  Cbc_solve(model.get());
-  Solution out;
-  const double* solution = Cbc_bestSolution(model.get());
-  out.optimal = Cbc_isProvenOptimal(model.get()) != 0;
-  if (solution == nullptr) return out;
-  for (std::size_t c = 0; c < classes_.usable.size(); ++c)
-    if (solution[c] > 0.5) out.classes.push_back(static_cast<int>(c));
-  return out;
 }
 
 // Classes that hang together over singular edges, as lists of classes.
@@ -207,35 +213,55 @@ std::vector<std::vector<int>> SheetProgram::components(const std::vector<int>& c
   return out;
 }
 
-SheetProgram::Result SheetProgram::solve(int most_branches) {
-  SheetSearch search(mesh_, complex_, classes_, spheres_, measure_, {max_valence_, 0, 0});
+SheetCandidate SheetProgram::sheet_of(const std::vector<int>& part) const {
+  SheetCandidate sheet;
+  for (int c : part) sheet.quads.insert(sheet.quads.end(), classes_.quads[c].begin(), classes_.quads[c].end());
+  std::sort(sheet.quads.begin(), sheet.quads.end());
+  return sheet;
+}
+
+// More classes at a vertex that a sheet passes twice, or where it tears features apart, mend nothing.
+void SheetProgram::forbid(const std::vector<int>& part, const Error& error) {
+  std::set<int> here;
+  if (!error.ids().empty())
+    for (int e : complex_.vertex_edges[static_cast<int>(error.ids()[0])])
+      for (int q : complex_.edge_quads[e]) here.insert(classes_.class_of[at(q)]);
+  Row row{{}, -infinity, -1};
+  for (int c : part)
+    if (here.empty() || here.contains(c)) row.terms.emplace_back(c, 1);
+  row.high += static_cast<double>(row.terms.size());
+  program_.rows.push_back(std::move(row));
+}
+
+SheetProgram::Result SheetProgram::solve(const BinaryLimits& limits, const Control& control) {
+  SheetSearch search(mesh_, complex_, classes_, spheres_, measure_, {max_valence_, 0, 0}, control);
   Result out;
+  out.limit = limit_;
   for (int round = 0; round < most_rounds; ++round) {
-    const Solution solution = optimise(most_branches);
+    const BinarySolution solution = minimise(program_, better, whole_gap, limits, control);
+    if (!solution.limit.empty()) out.limit = solution.limit;
+    std::vector<int> chosen;
+    for (std::size_t c = 0; c < classes_.usable.size() && !solution.values.empty(); ++c)
+      if (solution.values[c] != 0) chosen.push_back(static_cast<int>(c));
     bool refused = false;
-    for (const std::vector<int>& part : components(solution.classes)) {
-      SheetCandidate sheet;
-      for (int c : part) sheet.quads.insert(sheet.quads.end(), classes_.quads[c].begin(), classes_.quads[c].end());
-      std::sort(sheet.quads.begin(), sheet.quads.end());
-      bool good = search.evaluate(sheet.quads, sheet.change);
+    for (const std::vector<int>& part : components(chosen)) {
+      SheetCandidate sheet = sheet_of(part);
       try {
-        if (good) inflate_sheet(mesh_, complex_, sheet.quads);
+        inflate_sheet(mesh_, complex_, sheet.quads);
+        if (!search.evaluate(sheet.quads, sheet.change))
+          throw Error(ExitCode::bad_input, "The sheet would leave valences that are not allowed.");
+        if (sheet.change < 0) out.sheets.push_back(std::move(sheet));
       } catch (const Error& error) {
-        if (error.code() != ExitCode::bad_input)
-          throw;  // one-sided, twice at a boundary vertex, or features in its way
-        good = false;
+        if (error.code() != ExitCode::bad_input) throw;  // one-sided, or features in its way
+        refused = true;
+        forbid(part, error);
       }
-      if (good && sheet.change < 0) out.sheets.push_back(std::move(sheet));
-      if (good) continue;
-      refused = true;
-      Row not_again{{}, -infinity, static_cast<double>(part.size()) - 1};
-      for (int c : part) not_again.terms.emplace_back(c, 1);
-      rows_.push_back(std::move(not_again));
     }
     if (!out.sheets.empty() || !refused) {
-      out.complete = complete_ && solution.optimal && !refused;
+      out.complete = out.sheets.empty() && chosen.empty() && solution.proven && limit_.empty();
       break;
     }
+    if (round + 1 == most_rounds) out.limit = "rounds of the integer program";
   }
   std::sort(out.sheets.begin(), out.sheets.end());
   return out;

@@ -1,15 +1,19 @@
 #pragma once
 
 #include <map>
+#include <set>
 
+#include "binary_program.hpp"
 #include "sheet_search.hpp"
 
 namespace hexfield::hex {
 
 /// All sheets of a mesh at once as an integer program: a variable per class of quads, and one per way in which a sheet
-/// can pass a singular vertex, a cycle of its sphere that goes straight through its regular edges. Exactly the chosen
-/// classes are in the chosen cycles, classes that cross exclude each other, and the sum of node measures falls as far
-/// as it can. Sheets bend at singular edges only, as those of SheetSearch.
+/// can pass a vertex that is not regular: a cycle of its sphere, on the boundary an arc from boundary to boundary, that
+/// goes straight through its regular edges. Exactly the chosen classes are in the chosen ways, classes that cross
+/// exclude each other, and the sum of node measures falls as far as it can. Sheets bend at singular edges only, as
+/// those of SheetSearch. What is wrong with a solution at one vertex is forbidden there, whatever the sheet does
+/// elsewhere.
 class SheetProgram {
  public:
   SheetProgram(const HexMesh& mesh, const HexComplex& complex, const QuadClasses& classes,
@@ -18,9 +22,10 @@ class SheetProgram {
   struct Result {
     std::vector<SheetCandidate> sheets;  ///< disjoint, each lowers the measure; best first
     bool complete = false;               ///< without sheets: there is none
+    std::string limit;                   ///< what ended the search early, empty when nothing did
   };
-  /// The same for the same mesh: the search is limited by branches, not by time.
-  Result solve(int most_branches);
+  /// The same for the same mesh. Throws Error(stopped) when the control asks for it.
+  Result solve(const BinaryLimits& limits, const Control& control);
 
  private:
   /// A cycle by its classes, ascending, and what it does to the measure.
@@ -29,22 +34,19 @@ class SheetProgram {
     int change;
     auto operator<=>(const Pass&) const = default;
   };
-  struct Row {
-    std::vector<std::pair<int, double>> terms;
-    double low, high;
-  };
-  struct Solution {
-    std::vector<int> classes;
-    bool optimal = false;
-  };
+  using Row = BinaryProgram::Row;
   std::vector<Pass> passes_of(const VertexSphere& star);
   bool straight(const SphereTriangulation& sphere, const std::vector<int>& cycle) const;
+  void add_conflicts();
   void gather_vertices();
+  void gather_boundary(std::map<std::vector<Pass>, int>& groups);
+  void fix_unpassed(int vertex, const std::vector<Pass>& passes);
   void add_passes(const std::vector<Pass>& passes, int vertices);
   void add_free_edges();
-  Solution optimise(int most_branches) const;
   std::vector<std::vector<int>> components(const std::vector<int>& chosen) const;
-  int add_column(double cost, double upper);
+  SheetCandidate sheet_of(const std::vector<int>& part) const;
+  /// Forbids a sheet that cannot be inflated, if possible by its classes at one vertex.
+  void forbid(const std::vector<int>& part, const Error& error);
 
   const HexMesh& mesh_;
   const HexComplex& complex_;
@@ -52,11 +54,9 @@ class SheetProgram {
   const std::vector<VertexSphere>& spheres_;
   NodeMeasure& measure_;
   int max_valence_;
-  bool complete_ = true;
+  std::string limit_;  ///< a cap met when the program was made
   std::map<std::vector<std::vector<int>>, std::vector<std::pair<std::vector<int>, int>>> cycles_;  ///< by the rings
-  std::vector<double> cost_;
-  std::vector<double> upper_;
-  std::vector<Row> rows_;
+  BinaryProgram program_;  ///< the classes are its first variables
 };
 
 }  // namespace hexfield::hex

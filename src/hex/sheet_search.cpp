@@ -10,6 +10,8 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+constexpr std::int64_t steps_between_looks = 256;
+
 // The curves that chosen quads form around a vertex, as unions of the edges at it.
 struct Curves {
   int closed = 0;
@@ -52,13 +54,15 @@ Curves curves_at(const HexComplex& complex, int v, const auto& is_chosen) {
 }  // namespace
 
 SheetSearch::SheetSearch(const HexMesh& mesh, const HexComplex& complex, const QuadClasses& classes,
-                         const std::vector<VertexSphere>& spheres, NodeMeasure& measure, const SearchLimits& limits)
+                         const std::vector<VertexSphere>& spheres, NodeMeasure& measure, const SearchLimits& limits,
+                         const Control& control)
     : mesh_(mesh),
       complex_(complex),
       classes_(classes),
       spheres_(spheres),
       measure_(measure),
       limits_(limits),
+      control_(control),
       chosen_(classes.usable.size(), 0),
       banned_(classes.usable.size(), 0),
       count_(complex.edges.size(), 0) {}
@@ -182,6 +186,8 @@ void SheetSearch::extend() {
   }
   for (int c : options(e)) {
     if (++steps_ > limits_.steps) complete_ = false;
+    if (steps_ % steps_between_looks == 1 && control_.stop_requested && control_.stop_requested())
+      throw Error(ExitCode::stopped, "Stopped while sheets were searched for.");
     if (steps_ > limits_.steps || found_->size() - first_found_ >= limits_.sheets) return;
     if (add_class(c)) extend();
     remove_last();

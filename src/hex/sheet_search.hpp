@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "hexfield/base/control.hpp"
 #include "node_measure.hpp"
 #include "quad_classes.hpp"
 
@@ -29,9 +30,11 @@ struct SearchLimits {
 class SheetSearch {
  public:
   SheetSearch(const HexMesh& mesh, const HexComplex& complex, const QuadClasses& classes,
-              const std::vector<VertexSphere>& spheres, NodeMeasure& measure, const SearchLimits& limits);
+              const std::vector<VertexSphere>& spheres, NodeMeasure& measure, const SearchLimits& limits,
+              const Control& control);
 
-  /// Appends the sheets that hold all quads of the seed. False when a limit was hit, so that there may be more.
+  /// Appends the sheets that hold all quads of the seed. False when a limit was hit, so that there may be more. Throws
+  /// Error(stopped) when the control asks for it.
   bool find(const std::vector<int>& seed, std::vector<SheetCandidate>& out);
   /// Change of the sum of node measures by a sheet; false when it makes a valence outside 3..max_valence.
   bool evaluate(const std::vector<int>& quads, int& change);
@@ -58,6 +61,7 @@ class SheetSearch {
   const std::vector<VertexSphere>& spheres_;
   NodeMeasure& measure_;
   SearchLimits limits_;
+  const Control& control_;
   std::vector<char> chosen_;  ///< per class
   std::vector<int> banned_;   ///< per class: number of chosen classes against it
   std::vector<char> count_;   ///< per edge: chosen quads at singular edges

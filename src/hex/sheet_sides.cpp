@@ -185,7 +185,10 @@ bool SideFinder::divide(int vertex) {
       good = good && known == value;
     }
   for (const auto& [h, value] : side) good = good && value != 0;
-  if (!good || parts[1] != 1 || parts[2] != 1) return failed(fmt::format("it passes vertex {} more than once", vertex));
+  if (!good || parts[1] != 1 || parts[2] != 1) {
+    sides_.defect_vertex = vertex;
+    return failed(fmt::format("it passes vertex {} more than once", vertex));
+  }
   for (int slot : corners)
     if (side[slot / 8] == 2) sides_.b_corners.push_back(slot);
   return true;

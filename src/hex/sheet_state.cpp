@@ -12,8 +12,9 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int most_edges = 14;  // of a vertex all of whose cycles are tried
 constexpr int longest_cycle = 8;
-constexpr std::size_t most_seeds = 400;  // per vertex
-constexpr int most_bent_seeds = 24;      // per vertex, tried only where no straight sheet is found
+constexpr std::size_t most_seeds = 400;   // per vertex
+constexpr std::size_t most_sheets = 400;  // per seed
+constexpr int most_bent_seeds = 24;       // per vertex, tried only where no straight sheet is found
 
 std::uint64_t mix(std::uint64_t x) {
   x ^= x >> 33U;
@@ -78,7 +79,7 @@ std::uint64_t SheetState::hash() const {
 }
 
 std::vector<SheetState::Seed> SheetState::seeds_at(int v, int max_valence, int most, NodeMeasure& measure,
-                                                   bool& complete) const {
+                                                   std::set<std::string>& limits) const {
   const VertexSphere& star = spheres_[at(v)];
   std::vector<Seed> seeds;
   const auto consider = [&](const std::vector<int>& cycle) {
@@ -89,15 +90,17 @@ std::vector<SheetState::Seed> SheetState::seeds_at(int v, int max_valence, int m
   };
   // Vertices with very many edges have too many cycles to try; their general cut alone always helps.
   const bool few = star.sphere.size() <= most_edges;
-  complete = complete && few && max_valence <= longest_cycle;
+  if (!few || max_valence > longest_cycle) limits.insert("edges at a vertex");
   if (few)
     for (const auto& cycle : simple_cycles(star.sphere, std::min(max_valence, longest_cycle))) consider(cycle);
   if (seeds.empty() && star.sphere.max_degree() >= 6) consider(general_cut(star.sphere));
   std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
     return a.measure_after != b.measure_after ? a.measure_after < b.measure_after : a.cycle.size() < b.cycle.size();
   });
-  complete = complete && seeds.size() <= most_seeds;
-  if (seeds.size() > most_seeds) seeds.resize(most_seeds);
+  if (seeds.size() > most_seeds) {
+    limits.insert("cycles at a vertex");
+    seeds.resize(most_seeds);
+  }
   return seeds;
 }
 
@@ -163,41 +166,52 @@ void SheetState::keep_possible(std::vector<SheetCandidate>& sheets, int most, st
   sheets = std::move(good);
 }
 
-SheetState::Found SheetState::sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep,
-                                     NodeMeasure& measure) const {
-  const std::vector<int> features = feature_quads_of(mesh_, complex_);
-  const QuadClasses classes = build_quad_classes(complex_, features);
+void SheetState::add_seeded_sheets(const DecomposeOptions& options, const QuadClasses& classes, int most, int targets,
+                                   std::size_t keep, NodeMeasure& measure, const Control& control, Found& found) const {
   const int max_valence = std::max(options.max_valence, max_valence_);
   const bool exact = options.search == DecomposeOptions::Search::exact;
-  const std::vector<int> vertices = vertices_by_measure();
-  SheetProgram::Result all;
-  const auto solve_for_all = [&] {
-    all = SheetProgram(mesh_, complex_, classes, spheres_, measure, max_valence).solve(options.branches);
-  };
-  const bool by_seeds = !exact || most >= 0 || vertices.size() <= few_vertices;
-  if (!by_seeds) solve_for_all();
-  Found found;
-  if (by_seeds) {
-    const SearchLimits limits{max_valence, options.seed_budget, 400};
-    SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits);
-    found.complete = exact;
-    for (int v : vertices) {
-      std::vector<SheetCandidate> here;
-      for (const Seed& seed : seeds_at(v, max_valence, most, measure, found.complete)) {
-        if (!bends_of(v, seed.cycle).empty()) continue;
-        found.complete = follow(search, quads_of(v, seed.cycle), exact, here) && found.complete;
-      }
-      keep_possible(here, most, keep);
-      found.sheets.insert(found.sheets.end(), here.begin(), here.end());
-      if ((!here.empty() && --targets == 0) || search.steps_taken() > options.budget / 5) break;
+  SheetSearch search(mesh_, complex_, classes, spheres_, measure, {max_valence, options.seed_budget, most_sheets},
+                     control);
+  if (!exact) found.limits.insert("the greedy search");
+  for (int v : vertices_by_measure()) {
+    std::vector<SheetCandidate> here;
+    for (const Seed& seed : seeds_at(v, max_valence, most, measure, found.limits)) {
+      if (!bends_of(v, seed.cycle).empty()) continue;
+      if (!follow(search, quads_of(v, seed.cycle), exact, here) && exact)
+        found.limits.insert("patches tried from one seed");
     }
-    found.steps = search.steps_taken();
-    found.complete = found.complete && found.steps <= options.budget / 5;
-    if (exact && most < 0 && found.sheets.empty() && !found.complete) solve_for_all();
+    keep_possible(here, most, keep);
+    found.sheets.insert(found.sheets.end(), here.begin(), here.end());
+    const bool spent = search.steps_taken() > options.budget / 5;
+    if (spent) found.limits.insert("patches tried");
+    if (spent || (!here.empty() && --targets == 0)) break;
   }
-  found.sheets.insert(found.sheets.end(), all.sheets.begin(), all.sheets.end());
-  if (found.sheets.empty()) found.complete = found.complete && by_seeds ? found.complete : all.complete;
-  if (found.sheets.empty()) add_bent_sheets(options, most, keep, measure, found);
+  found.steps += search.steps_taken();
+}
+
+SheetState::Found SheetState::sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep,
+                                     NodeMeasure& measure, const Control& control) const {
+  const QuadClasses classes = build_quad_classes(complex_, feature_quads_of(mesh_, complex_));
+  const int max_valence = std::max(options.max_valence, max_valence_);
+  const bool lowers = options.search == DecomposeOptions::Search::exact && most < 0;
+  Found found;
+  const auto solve_for_all = [&] {
+    SheetProgram program(mesh_, complex_, classes, spheres_, measure, max_valence);
+    SheetProgram::Result all = program.solve({options.branches, options.work}, control);
+    found.sheets = std::move(all.sheets);
+    found.complete = all.complete;
+    if (all.complete) found.limits.clear();
+    if (!all.limit.empty()) found.limits.insert(all.limit);
+  };
+  const bool program_first = lowers && has_many_nodes();
+  if (program_first) solve_for_all();
+  if (!program_first || (found.sheets.empty() && !found.complete)) {
+    found.limits.clear();
+    add_seeded_sheets(options, classes, most, targets, keep, measure, control, found);
+    found.complete = found.limits.empty();
+  }
+  if (lowers && !program_first && found.sheets.empty() && !found.complete) solve_for_all();
+  if (found.sheets.empty()) add_bent_sheets(options, most, keep, measure, control, found);
   std::sort(found.sheets.begin(), found.sheets.end());
   found.sheets.erase(std::unique(found.sheets.begin(), found.sheets.end(),
                                  [](const SheetCandidate& a, const SheetCandidate& b) { return a.quads == b.quads; }),
@@ -207,19 +221,19 @@ SheetState::Found SheetState::sheets(const DecomposeOptions& options, int most, 
 }
 
 void SheetState::add_bent_sheets(const DecomposeOptions& options, int most, std::size_t keep, NodeMeasure& measure,
-                                 Found& found) const {
+                                 const Control& control, Found& found) const {
   const std::vector<int> features = feature_quads_of(mesh_, complex_);
   const int max_valence = std::max(options.max_valence, max_valence_);
-  const SearchLimits limits{max_valence, options.seed_budget, 400};
-  bool all_seeds = true;
+  const SearchLimits limits{max_valence, options.seed_budget, most_sheets};
+  std::set<std::string> of_seeds;
   for (int v : vertices_by_measure()) {
     int bent = 0;
-    for (const Seed& seed : seeds_at(v, max_valence, most, measure, all_seeds)) {
+    for (const Seed& seed : seeds_at(v, max_valence, most, measure, of_seeds)) {
       const std::vector<int> bends = bends_of(v, seed.cycle);
       if (bends.empty()) continue;
       if (++bent > most_bent_seeds || found.steps > options.budget) break;
       const QuadClasses classes = build_quad_classes(complex_, features, bends);
-      SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits);
+      SheetSearch search(mesh_, complex_, classes, spheres_, measure, limits, control);
       std::vector<SheetCandidate> here;
       follow(search, quads_of(v, seed.cycle), options.search == DecomposeOptions::Search::exact, here);
       keep_possible(here, most, keep);

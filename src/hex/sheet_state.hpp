@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "hexfield/hex/decompose.hpp"
@@ -26,11 +28,13 @@ class SheetState {
     std::vector<SheetCandidate> sheets;  ///< best first, each once
     bool complete = true;                ///< no limit was hit by the search for sheets without bends
     std::int64_t steps = 0;
+    std::set<std::string> limits;  ///< that were hit, where the search is not complete
   };
   /// Sheets that change the sum of measures by at most `most`: from seeds at the first `targets` vertices that have
   /// any, or, where many vertices have a measure, those that lower it most together. Where there are none, sheets that
-  /// bend at the vertex they start from.
-  Found sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep, NodeMeasure& measure) const;
+  /// bend at the vertex they start from. Throws Error(stopped) when the control asks for it.
+  Found sheets(const DecomposeOptions& options, int most, int targets, std::size_t keep, NodeMeasure& measure,
+               const Control& control) const;
 
  private:
   static constexpr std::size_t few_vertices = 12;
@@ -38,10 +42,13 @@ class SheetState {
     int measure_after;
     std::vector<int> cycle;
   };
+  void add_seeded_sheets(const DecomposeOptions& options, const QuadClasses& classes, int most, int targets,
+                         std::size_t keep, NodeMeasure& measure, const Control& control, Found& found) const;
   void add_bent_sheets(const DecomposeOptions& options, int most, std::size_t keep, NodeMeasure& measure,
-                       Found& found) const;
-  /// Clears `complete` when cycles were left out.
-  std::vector<Seed> seeds_at(int v, int max_valence, int most, NodeMeasure& measure, bool& complete) const;
+                       const Control& control, Found& found) const;
+  /// Adds to `limits` when cycles were left out.
+  std::vector<Seed> seeds_at(int v, int max_valence, int most, NodeMeasure& measure,
+                             std::set<std::string>& limits) const;
   /// Vertices with positive measure, nodes first, the largest measure first.
   std::vector<int> vertices_by_measure() const;
   /// Keeps the best sheets that change the measure by at most `most` and can be inflated, each once.

@@ -31,6 +31,7 @@ void decompose_result(RunState& state, const Control& control) {
   report.nodes_before = count_nodes(before);
   const Decomposition found =
       decompose_on_shape(before, {&state.field.mesh, &state.field.features}, DecomposeOptions{}, control);
+  if (found.stopped) throw Error(ExitCode::stopped, "Stopped while singular nodes were being decomposed.");
   report.proven = found.proven;
   report.sheets = static_cast<int>(found.steps.size());
   report.nodes_after = static_cast<int>(found.nodes_left.size());

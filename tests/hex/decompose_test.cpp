@@ -89,7 +89,43 @@ TEST(Decompose, IsProvenOnlyWhenNothingWasLeftOut) {
   EXPECT_FALSE(decompose(mesh, greedy, {}, {}).proven);
   DecomposeOptions none;
   none.budget = 0;
-  EXPECT_FALSE(decompose(mesh, none, {}, {}).proven);
+  const Decomposition untried = decompose(mesh, none, {}, {});
+  EXPECT_FALSE(untried.proven);
+  EXPECT_TRUE(untried.limits.contains("patches tried"));
+  // Too few tries for each seed and too little work for the integer program.
+  DecomposeOptions little;
+  little.seed_budget = 0;
+  little.work = 1;
+  const Decomposition cut_short = decompose(node_mesh("(0,3,6)"), little, {}, {});
+  EXPECT_FALSE(cut_short.proven);
+  if (cut_short.measure > 0) {
+    EXPECT_FALSE(cut_short.limits.empty());
+  }
+}
+
+TEST(Decompose, StopsWithWhatWasReached) {
+  const HexMesh cube = hex_grid({2, 2, 2});
+  HexMesh padded = pad(cube, build_hex_complex(cube));
+  const HexSurface surface = complete_hex_features(padded);
+  Control control;
+  control.stop_requested = [] { return true; };
+  const Decomposition none = decompose_on_shape(padded, {&surface.mesh, &surface.features}, {}, control);
+  EXPECT_TRUE(none.stopped);
+  EXPECT_FALSE(none.proven);
+  EXPECT_EQ(none.mesh.hexes, padded.hexes);
+  EXPECT_EQ(none.nodes_left.size(), 8u);
+  // Stopped while the second sheet is settled.
+  int settled = 0;
+  const auto settle = [&](HexMesh& mesh) {
+    if (++settled == 2) throw Error(ExitCode::stopped, "Enough.");
+    place_free(mesh);
+    return true;
+  };
+  const Decomposition one = decompose(node_mesh("(1,3,3)"), {}, settle, {});
+  EXPECT_TRUE(one.stopped);
+  ASSERT_EQ(one.steps.size(), 1u);
+  EXPECT_TRUE(check(one.mesh).empty());
+  EXPECT_EQ(one.nodes_left.size(), 1u);
 }
 
 TEST(Decompose, SheetsThatCannotBePlacedAreTakenBack) {
@@ -137,6 +173,19 @@ TEST(MaximiseMinimum, ReachesTheBoundOfANode) {
     maximise_minimum(mesh, {}, {});
     EXPECT_NEAR(quality(mesh).min, bound, 0.002) << name;
   }
+}
+
+TEST(MaximiseMinimum, ReachesTheBoundOfACornerThatIsKept) {
+  // At a corner of a padded cube three hexes share the octant: no better than 1 / sqrt(3).
+  const HexMesh cube = hex_grid({3, 3, 3});
+  HexMesh padded = pad(cube, build_hex_complex(cube));
+  const HexSurface surface = complete_hex_features(padded);
+  HexMesh best = padded;
+  improve_thoroughly(best, {&surface.mesh, &surface.features}, {});
+  EXPECT_NEAR(quality(best).min, std::sqrt(1.0 / 3), 1e-3);
+  const Decomposition done = decompose_on_shape(padded, {&surface.mesh, &surface.features}, {}, {});
+  EXPECT_TRUE(done.nodes_left.empty());
+  EXPECT_GT(quality(done.mesh).min, std::sqrt(1.0 / 3) - 1e-3);
 }
 
 TEST(MaximiseMinimum, KeepsTheBoundaryWhenTold) {

@@ -9,8 +9,10 @@ others write come through; `hexfield run --decompose` says in its report what ca
 import json
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -157,6 +159,33 @@ def decomposed_run():
     yield [f"run --decompose: {w}" for w in wrong]
 
 
+def stopped():
+    """A signal or the time limit ends the search, also inside the integer program, with a mesh and exit code 9."""
+    made = SCRATCH / "stopped"
+    script = [sys.executable, str(ROOT / "python-post" / "hex_meshes.py"), str(made), "blocks_lattice"]
+    subprocess.run(script, check=True, stdout=subprocess.DEVNULL)
+    for name, limit in (("signal", []), ("limit", ["--time-limit", "2"])):
+        out = SCRATCH / f"{name}.vtk"
+        process = program.start(PROGRAM, 1, ["decompose", made / "blocks_lattice.vtk", "-o", out, "--threads", "1", *limit])
+        if not limit:
+            time.sleep(2)
+            process.send_signal(signal.SIGTERM)
+        begin = time.monotonic()
+        try:
+            text, err = process.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            program.kill_all(process)
+            yield [f"stopped by {name}: deaf"]
+            continue
+        wrong = [f"exit code {process.returncode}: {err}"] if process.returncode != 9 else []
+        wrong += [f"only after {time.monotonic() - begin:.1f} s"] if time.monotonic() - begin > 30 else []
+        wrong += one_sentence(program.Done(process.returncode, text, err), ["Stopped by", out.name])
+        wrong += [] if "the search was stopped" in text else [f"not in the report: {text[-300:]}"]
+        check = program.run(PROGRAM, 1, ["check", out, "--against", made / "blocks_lattice.tets.vtk"])
+        wrong += [f"check: {check.out}{check.err}"] if check.code != 0 else []
+        yield [f"stopped by {name}: {w}" for w in wrong]
+
+
 def other_origins():
     made = SCRATCH / "made"
     script = [sys.executable, str(ROOT / "python-post" / "hex_meshes.py"), str(made)]
@@ -182,7 +211,7 @@ def main():
     shutil.rmtree(SCRATCH, ignore_errors=True)
     SCRATCH.mkdir(parents=True)
     wrong, cases = [], 0
-    for group in (broken_meshes(), other_writers(), decomposed_run(), other_origins()):
+    for group in (broken_meshes(), other_writers(), decomposed_run(), stopped(), other_origins()):
         for found in group:
             cases += 1
             wrong += found

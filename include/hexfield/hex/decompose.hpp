@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct DecomposeOptions {
   std::int64_t budget = 5000000;     ///< classes tried in all before the search ends
   std::int64_t seed_budget = 20000;  ///< classes tried for one seed
   int branches = 500;                ///< of the integer program for all sheets at once
+  double work = 5e8;                 ///< of that program: steps of its linear programs times its rows
 };
 
 struct DecomposeStep {
@@ -36,18 +38,20 @@ struct Decomposition {
   int measure = 0;         ///< 0: no node is left, and no curve above the final valence
   std::vector<HexSingularGraph::Node> nodes_left;
   int sheets_refused = 0;  ///< by `settle`
-  /// With a measure left: the search was exhaustive, so that no sheet lowers the measure that is straight at every
-  /// regular edge, holds no feature quad, tears no feature apart and leaves no edge above max_valence. False whenever a
-  /// limit was met (of the budgets, or cycles of vertices with more than 14 edges) or `settle` refused a sheet, and
-  /// always with the greedy search.
+  /// With a measure left: the search in the mesh that is returned was exhaustive, so that no sheet lowers the measure
+  /// that is straight at every regular edge, holds no feature quad, tears no feature apart and leaves no edge above
+  /// max_valence. False whenever a limit was met (then of `limits`), `settle` refused a sheet or the search was
+  /// stopped, and always with the greedy search.
   bool proven = false;
+  std::set<std::string> limits;  ///< what ended the last search before it was exhaustive
+  bool stopped = false;          ///< the control asked for the end; the mesh is the one reached so far
 };
 
 /// Pulls the singular nodes of a hex mesh apart into singular curves by sheet inflations, as few as it finds.
 /// `settle` is called after each inflation of the chosen sequence to place vertices; may be empty. Where it returns
 /// false (a hex could not be made positive) the sheet is taken back, and the search goes on without it. The mesh must
-/// pass check_for_sheets(). Depends on the connectivity, the options and what `settle` returns only. Not collective.
-/// Throws Error(stopped) between sheets when the control asks for it.
+/// pass check_for_sheets(). Depends on the connectivity, the options and what `settle` returns only. Ends with what was
+/// settled so far when the control, or `settle` by Error(stopped), asks for it. Not collective.
 Decomposition decompose(const HexMesh& mesh, const DecomposeOptions& options,
                         const std::function<bool(HexMesh&)>& settle, const Control& control);
 
@@ -61,7 +65,7 @@ struct HexShape {
 void improve_thoroughly(HexMesh& mesh, const HexShape& shape, const Control& control);
 
 /// decompose() with the vertices placed on the shape after each sheet, and improve_thoroughly() at the end. All hexes
-/// of the result are positive if those of the mesh are. Not collective.
+/// of the result are positive if those of the mesh are, also when it is stopped. Not collective.
 Decomposition decompose_on_shape(const HexMesh& mesh, const HexShape& shape, const DecomposeOptions& options,
                                  const Control& control);
 

@@ -13,7 +13,12 @@ struct ImproveOptions {
   int smoothing_rounds = 5;       ///< sweeps over all vertices before the minimum is raised
   double shape_weight = 0.1;      ///< of the mean ratio beside the inverse scaled Jacobian; keeps edges from collapsing
   double good_enough = 0.7;  ///< hexes of at least this scaled Jacobian are not worked on when the minimum is raised
-  int maximise_steps = 20;   ///< steps of maximise_minimum() per sharpness at the end, while below good_enough; 0: none
+  /// maximise_minimum() ends the stage while the minimum is below this: nearly what a singular curve of valence 3
+  /// allows.
+  double maximise_below = 0.86;
+  int maximise_steps = 40;         ///< of it, per sharpness; 0: none
+  double maximise_sharpness = 16;  ///< its first sharpness
+  double maximise_gain = 1e-4;     ///< its smallest gain of a step
 };
 
 /// Stage 8: raises the minimum scaled Jacobian by moving vertices: boundary vertices slide on the input
@@ -33,7 +38,8 @@ void improve_free_hex_mesh(HexMesh& hexes, const ImproveOptions& options, const 
 
 /// Parameters of maximise_minimum().
 struct MaximiseOptions {
-  double first_sharpness = 16;   ///< of the smooth minimum, per unit of scaled Jacobian
+  /// Of the smooth minimum, per unit of scaled Jacobian; doubled while the smooth minimum is more than 0.25 too low.
+  double first_sharpness = 16;
   double last_sharpness = 4096;  ///< doubled until here; the smooth minimum is then within log(corners) / 4096
   int steps = 40;                ///< at most, per sharpness
   double gain = 1e-5;            ///< steps that raise the smooth minimum by less end a sharpness

@@ -15,6 +15,7 @@ struct SheetSides {
   std::vector<int> vertices;   ///< of the sheet, ascending
   std::vector<int> b_corners;  ///< 8 hex + corner of all corners at vertices of the sheet on side B, ascending
   std::string defect;          ///< why the quads are no sheet; then nothing else is meant
+  int defect_vertex = -1;      ///< where the defect is at one vertex
 };
 
 /// Sides of a set of quads that has to be a sheet: interior quads without feature, connected, a surface with its
@@ -39,7 +40,7 @@ struct Inflation {
 /// Colours are carried: a feature surface that the sheet cuts gets a strip of quads, a feature line an edge; a line
 /// along the sheet stays with the side that its surfaces need; a corner stays where more of its lines are. New hexes
 /// have the material of side A. Throws Error(bad_input) with the reason when the quads are no sheet or a
-/// corner or a seam of surfaces would be torn apart.
+/// corner or a seam of surfaces would be torn apart; its first id is the vertex where the reason is at one.
 Inflation inflate_sheet(const HexMesh& mesh, const HexComplex& complex, std::vector<int> quads, double gap = 0.25);
 
 /// The hexes that are crossed by the edges parallel to an edge: opposite in a quad, again and again.
