@@ -21,12 +21,6 @@ using octahedral::Rotation;
 // Arcs on edges whose mean dihedral angle is farther from flat are at home there: one quad fits a right angle.
 constexpr double smooth_angle = M_PI / 4;
 
-bool on_feature_curve(const RepairState& state, VertexId v) {
-  if (state.features.points.contains(v)) return true;
-  return std::ranges::any_of(edges_at(state.mesh, v),
-                             [&](const EdgeKey& e) { return state.features.edges.contains(e); });
-}
-
 bool is_boundary_edge(const RepairState& state, const EdgeKey& e) { return !ring_of(state.mesh, e[0], e[1]).closed; }
 
 Label normal_label(const RepairState& state, HalfFaceId h) {

@@ -216,15 +216,10 @@ bool unzip_along_guide(RepairState& state, VertexId v, const EdgeKey& edge, cons
 
 namespace {
 
-bool on_feature_curve(const RepairState& state, VertexId v) {
-  return std::ranges::any_of(edges_at(state.mesh, v),
-                             [&](const EdgeKey& e) { return state.features.edges.contains(e); });
-}
-
 // A zipper node on a feature curve, or another bad node where curves meet.
 bool is_held_node(const RepairState& state, VertexId v) {
   const NodeKind kind = kind_of(state, v);
-  return on_boundary(state.mesh, v) && ((kind == NodeKind::zipper && on_feature_curve(state, v)) ||
+  return on_boundary(state.mesh, v) && ((kind == NodeKind::zipper && on_feature_edge(state, v)) ||
                                         (kind == NodeKind::invalid && is_feature_end(state, v)));
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "hexfield/field/edge_codes.hpp"
+#include "hexfield/repair/guides.hpp"
 #include "hexfield/repair/one_ring.hpp"
 #include "hexfield/repair/state_ops.hpp"
 #include "hexfield/repair/vertex_repair.hpp"
@@ -42,41 +43,20 @@ EdgesAt edges_of_end(const RepairState& state, VertexId v) {
   return found;
 }
 
-using Labels = std::map<TetId, octahedral::Label>;
-
-// The flow along `edge` away from v in all tets at v that are reached through no feature face; empty when it has none.
-Labels flow_away(const RepairState& state, VertexId v, const EdgeKey& edge) {
-  const VertexId to = other_end(edge, v);
-  const EdgeRing ring = ring_of(state.mesh, v, to);
-  const auto out = outgoing_label(state.mesh, state.field, ring, code_of(state, edge), v, to);
-  if (out == octahedral::no_label) return {};
-  Labels labels;
-  std::vector<TetId> queue;
-  const auto around = transport_around(state.field, ring, out);
-  for (std::size_t k = 0; k < ring.tets.size(); ++k) {
-    labels.emplace(ring.tets[k], around[k]);
-    queue.push_back(ring.tets[k]);
-  }
-  for (std::size_t i = 0; i < queue.size(); ++i)
-    for (int f = 0; f < 4; ++f) {
-      const HalfFaceId h(queue[i], f);
-      if (state.mesh.vertices(queue[i])[static_cast<std::size_t>(f)] == v || is_feature_face(state, h)) continue;
-      const TetId next = state.mesh.opposite_half_face(h).tet();
-      if (labels.emplace(next, transport(state.field, h, labels.at(queue[i]))).second) queue.push_back(next);
-    }
-  return labels;
-}
-
 }  // namespace
 
 bool is_zipper_on_curve(const RepairState& state, VertexId v) {
   const EdgesAt edges = edges_of_end(state, v);
   if (!is_end_on_curve(state, v, edges) || std::abs(code_of(state, edges.arcs[0])) != 1) return false;
-  for (const auto& [t, label] : flow_away(state, v, edges.arcs[0]))
+  const VertexId to = other_end(edges.arcs[0], v);
+  const EdgeRing ring = ring_of(state.mesh, v, to);
+  const auto out = outgoing_label(state.mesh, state.field, ring, code_of(state, edges.arcs[0]), v, to);
+  if (out == octahedral::no_label) return false;
+  for (const FlowPlace& p : flow_star(state, {v, ring.tets.front()}))
     for (int f = 0; f < 4; ++f)
-      if (const HalfFaceId h(t, f);
-          state.mesh.vertices(t)[static_cast<std::size_t>(f)] != v && is_feature_face(state, h) &&
-          closest_label(state.field.frames[t.index()], outward_normal(state.mesh, h)) == label)
+      if (const HalfFaceId h(p.tet, f);
+          state.mesh.vertices(p.tet)[static_cast<std::size_t>(f)] != v && is_feature_face(state, h) &&
+          closest_label(state.field.frames[p.tet.index()], outward_normal(state.mesh, h)) == label_at(p, out))
         return true;
   return false;
 }

@@ -26,19 +26,6 @@ bool is_inner_arc_vertex(const RepairState& state, VertexId v) {
          !on_feature_face(state, v);
 }
 
-// Vertices of the arc that leaves v by `edge`, after v, as far as it has no branches, at most `steps`.
-std::vector<VertexId> along_arc(const RepairState& state, VertexId v, EdgeKey edge, int steps) {
-  std::vector<VertexId> vertices;
-  for (int i = 0; i < steps; ++i) {
-    v = other_end(edge, v);
-    vertices.push_back(v);
-    const auto here = singular_edges_at(state, v);
-    if (here.size() != 2) break;
-    edge = here[0] == edge ? here[1] : here[0];
-  }
-  return vertices;
-}
-
 // Cosine between the two directions in which the arc leaves v: -1 where it is straight.
 double bend_at(const RepairState& state, VertexId v) {
   const auto edges = singular_edges_at(state, v);

@@ -9,11 +9,6 @@
 namespace hexfield {
 namespace {
 
-bool on_feature_curve(const RepairState& state, VertexId v) {
-  return std::ranges::any_of(edges_at(state.mesh, v),
-                             [&](const EdgeKey& e) { return state.features.edges.contains(e); });
-}
-
 // Boundary edges of the tets at v that do not contain v and are no features: where a fan at v may end.
 std::map<VertexId, std::vector<VertexId>> boundary_link(const RepairState& state, VertexId v) {
   std::set<EdgeKey> edges;
@@ -42,7 +37,7 @@ std::vector<VertexId> chain_between(const RepairState& state, VertexId v, Vertex
     for (VertexId w : here->second) {
       if (before.contains(w)) continue;
       const bool free =
-          !is_special(state, edge_key(v, w)) && singular_edges_at(state, w).empty() && !on_feature_curve(state, w);
+          !is_special(state, edge_key(v, w)) && singular_edges_at(state, w).empty() && !on_feature_edge(state, w);
       if (w != to && !free) continue;
       before[w] = queue[i];
       queue.push_back(w);
@@ -61,7 +56,7 @@ bool zip_to_boundary(RepairState& state, VertexId v, const ZipperOptions& option
   for (std::size_t i = 0; i < 2; ++i) {
     ends[i] = other_end(arcs[i], v);
     if (std::abs(code_of(state, arcs[i])) != 1 || !on_boundary(state.mesh, ends[i])) return false;
-    if (singular_edges_at(state, ends[i]).size() != 1 || on_feature_curve(state, ends[i])) return false;
+    if (singular_edges_at(state, ends[i]).size() != 1 || on_feature_edge(state, ends[i])) return false;
   }
   if (code_of(state, arcs[0]) != -code_of(state, arcs[1])) return false;
   const auto chain = chain_between(state, v, ends[0], ends[1]);

@@ -108,6 +108,27 @@ bool on_feature_face(const RepairState& state, VertexId v) {
   return false;
 }
 
+bool on_feature_edge(const RepairState& state, VertexId v) {
+  return std::ranges::any_of(edges_at(state.mesh, v),
+                             [&](const EdgeKey& e) { return state.features.edges.contains(e); });
+}
+
+bool on_feature_curve(const RepairState& state, VertexId v) {
+  return state.features.points.contains(v) || on_feature_edge(state, v);
+}
+
+std::vector<VertexId> along_arc(const RepairState& state, VertexId v, EdgeKey edge, int steps) {
+  std::vector<VertexId> vertices;
+  for (int i = 0; i < steps; ++i) {
+    v = other_end(edge, v);
+    vertices.push_back(v);
+    const auto here = singular_edges_at(state, v);
+    if (here.size() != 2) break;
+    edge = here[0] == edge ? here[1] : here[0];
+  }
+  return vertices;
+}
+
 bool in_feature_face(const RepairState& state, const EdgeRing& ring) {
   return !ring.closed || std::any_of(ring.crossings.begin(), ring.crossings.end(),
                                      [&](HalfFaceId h) { return is_feature_face(state, h); });

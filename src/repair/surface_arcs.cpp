@@ -6,6 +6,7 @@
 #include "hexfield/field/edge_codes.hpp"
 #include "hexfield/field/singularity_graph.hpp"
 #include "hexfield/repair/edge_repair.hpp"
+#include "hexfield/repair/guides.hpp"
 #include "hexfield/repair/neighbourhood_loop.hpp"
 #include "hexfield/repair/state_ops.hpp"
 
@@ -30,12 +31,6 @@ int quads(const std::vector<Sector>& all) {
   return sum;
 }
 
-bool on_feature_curve(const RepairState& state, VertexId v) {
-  return state.features.points.contains(v) || std::ranges::any_of(edges_at(state.mesh, v), [&](const EdgeKey& e) {
-           return state.features.edges.contains(e);
-         });
-}
-
 // An edge in a surface that both its sides take for flat, of an arc that therefore cannot run there.
 bool crosses_at_an_edge(const RepairState& state, const EdgeKey& e) {
   const EdgeCode code = code_of(state, e);
@@ -47,15 +42,8 @@ bool crosses_at_an_edge(const RepairState& state, const EdgeKey& e) {
 
 // The tets at v that are connected with `seed` through faces at v that are no features.
 std::set<TetId> side_of(const RepairState& state, VertexId v, TetId seed) {
-  std::set<TetId> side{seed};
-  std::vector<TetId> queue{seed};
-  for (std::size_t i = 0; i < queue.size(); ++i)
-    for (int f = 0; f < 4; ++f) {
-      const HalfFaceId h(queue[i], f);
-      if (state.mesh.vertices(h.tet())[static_cast<std::size_t>(f)] == v || is_feature_face(state, h)) continue;
-      const TetId next = state.mesh.opposite_half_face(h).tet();
-      if (side.insert(next).second) queue.push_back(next);
-    }
+  std::set<TetId> side;
+  for (const FlowPlace& p : flow_star(state, {v, seed})) side.insert(p.tet);
   return side;
 }
 

@@ -18,14 +18,8 @@ namespace {
 constexpr int arc_steps = 3;  // edges of an arc that tell its direction
 
 // Direction in space of the arc that leaves v along `edge`.
-Vec3 direction_of_arc(const RepairState& state, VertexId v, EdgeKey edge) {
-  VertexId end = v;
-  for (int step = 0; step < arc_steps; ++step) {
-    end = other_end(edge, end);
-    const auto here = singular_edges_at(state, end);
-    if (here.size() != 2) break;
-    edge = here[0] == edge ? here[1] : here[0];
-  }
+Vec3 direction_of_arc(const RepairState& state, VertexId v, const EdgeKey& edge) {
+  const VertexId end = along_arc(state, v, edge, arc_steps).back();
   return (state.mesh.point(end) - state.mesh.point(v)).normalized();
 }
 

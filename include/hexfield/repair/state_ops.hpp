@@ -58,6 +58,9 @@ bool is_feature_face(const RepairState& state, HalfFaceId h);
 bool on_feature_face(const RepairState& state, VertexId v);
 bool in_feature_face(const RepairState& state, const EdgeRing& ring);
 bool in_feature_face(const RepairState& state, const EdgeKey& edge);
+/// Is the vertex the end of a feature edge; or that or a feature point?
+bool on_feature_edge(const RepairState& state, VertexId v);
+bool on_feature_curve(const RepairState& state, VertexId v);
 /// A feature edge, or one whose code is not zero.
 bool is_special(const RepairState& state, const EdgeKey& edge);
 EdgeCode code_of(const RepairState& state, const EdgeKey& edge);
@@ -75,6 +78,8 @@ std::vector<EdgeKey> edges_of(const TetMesh& mesh, std::span<const TetId> tets);
 std::vector<EdgeKey> edges_at(const TetMesh& mesh, VertexId v);
 /// Those with a code.
 std::vector<EdgeKey> singular_edges_at(const RepairState& state, VertexId v);
+/// The vertices after v of the arc that leaves it by `edge`, as far as it has no branches, at most `steps`.
+std::vector<VertexId> along_arc(const RepairState& state, VertexId v, EdgeKey edge, int steps);
 /// Ring of a -> b from a tet found at a.
 EdgeRing ring_of(const TetMesh& mesh, VertexId a, VertexId b);
 
