@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::array<double, 4> penalties = {1e-2, 1e-1, 1e0, 1e2};
 constexpr int untangling_rounds = 12;
+// No more of the energy can be seen in a hex mesh.
+constexpr double final_decrease = 1e-6;
 
 solve::TetEnergy dirichlet_energy(const MapProblem& problem, double edge, std::span<const double> fixed) {
   solve::TetEnergy energy(solve::TetEnergy::Kind::symmetric_dirichlet);
@@ -127,7 +129,7 @@ IntegerOutcome reach_integers(const MapProblem& problem, const IntegerGoal& goal
   if (!is_inside(outcome.unknowns)) return outcome;
   const VecOwner y(problem.make_vector(outcome.unknowns, true));
   options.max_iterations = 100;
-  options.decrease_tolerance = 1e-10;
+  options.decrease_tolerance = final_decrease;
   monitor.minimise(
       comm, fixed_terms, y.get(), options, "integer-grid map",
       [&] { return pack(num_integer_phases(), goal, problem.gather(y.get(), goal.integers)); },

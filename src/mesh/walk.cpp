@@ -132,6 +132,7 @@ std::vector<TetId> vertex_star(const TetMesh& mesh, VertexId v) {
 
 TetId find_tet_with_edge(const TetMesh& mesh, VertexId a, VertexId b) {
   TetId seed;
+  if (a == b) return seed;
   walk_star(mesh, a, [&](TetId t) {
     if (mesh.has_vertex(t, b)) seed = t;
     return !seed.valid();
